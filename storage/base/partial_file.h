@@ -1,0 +1,32 @@
+// A file that is written under a temporary name beside its place and takes its name only when whole.
+#pragma once
+#include <filesystem>
+
+namespace footwall {
+
+class PartialFile {
+ public:
+  // Picks a private temporary name in final_path's folder; creates nothing. Throws kNotFound without that folder.
+  explicit PartialFile(std::filesystem::path final_path);
+  // Removes the temporary file unless commit() was reached.
+  ~PartialFile();
+  PartialFile(const PartialFile&) = delete;
+  PartialFile& operator=(const PartialFile&) = delete;
+
+  // Where to write; the file must be closed before commit().
+  const std::filesystem::path& path() const { return temporary_; }
+  // Flushes the bytes to the disk, renames, flushes the folder. Throws kIo; an existing file is replaced.
+  void commit();
+
+ private:
+  std::filesystem::path final_;
+  std::filesystem::path temporary_;
+  bool committed_ = false;
+};
+
+// Writes a whole small file through PartialFile.
+void write_whole_file(const std::filesystem::path& path, std::string_view bytes);
+// Reads a whole file of at most `limit` bytes; throws kNotFound, kIo, or kMemory above the limit.
+std::string read_whole_file(const std::filesystem::path& path, std::size_t limit);
+
+}  // namespace footwall

@@ -1,0 +1,48 @@
+#include "storage/base/partial_file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "storage/base/error.h"
+
+namespace footwall {
+namespace {
+
+class PartialFileTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "footwall-partial-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::size_t entries() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(PartialFileTest, TakesItsNameOnlyWhenCommitted) {
+  const auto path = folder_ / "whole.txt";
+  {
+    PartialFile file(path);
+    std::ofstream(file.path()) << "half";
+    EXPECT_FALSE(std::filesystem::exists(path));
+  }
+  EXPECT_EQ(entries(), 0U) << "an abandoned file must leave nothing";
+  write_whole_file(path, "whole");
+  EXPECT_EQ(read_whole_file(path, 100), "whole");
+  EXPECT_EQ(entries(), 1U);
+}
+
+TEST_F(PartialFileTest, RefusesAFolderThatIsNotThereAndAFileThatIsTooLarge) {
+  EXPECT_THROW(PartialFile(folder_ / "no" / "file"), Error);
+  write_whole_file(folder_ / "ten", "0123456789");
+  EXPECT_THROW(read_whole_file(folder_ / "ten", 9), Error);
+  EXPECT_THROW(read_whole_file(folder_ / "none", 9), Error);
+}
+
+}  // namespace
+}  // namespace footwall
