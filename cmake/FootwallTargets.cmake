@@ -31,10 +31,12 @@ endfunction()
 function(footwall_program NAME)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
   add_executable(${NAME} ${ARG_SOURCES})
-  target_include_directories(${NAME} PRIVATE ${CMAKE_SOURCE_DIR}/app)
   target_link_libraries(${NAME} PRIVATE ${ARG_LINKS} fmt::fmt OpenMP::OpenMP_CXX)
   target_precompile_headers(${NAME} REUSE_FROM footwall_pch)
 endfunction()
+
+# Everything that the sanitizers run.
+add_custom_target(unit_tests)
 
 # footwall_unit_test(base SOURCES base/error_test.cpp LINKS footwall::base [LABEL unit] [TIMEOUT 120])
 # One executable per tested folder, unit_<name>; one file per tested source.
@@ -52,7 +54,20 @@ function(footwall_unit_test NAME)
   target_link_libraries(${target} PRIVATE ${ARG_LINKS} GTest::gtest GTest::gtest_main fmt::fmt OpenMP::OpenMP_CXX)
   target_precompile_headers(${target} REUSE_FROM footwall_pch)
   add_test(NAME ${target} COMMAND ${target})
+  if(ARG_LABEL STREQUAL "unit")
+    add_dependencies(unit_tests ${target})
+  endif()
   set_tests_properties(${target} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+endfunction()
+
+# footwall_slow_test(mesh FACTOR 40 TEST Mesh.StaysSoundUnderRandomOperations)
+# One test of unit_<name> again, under the label slow, with FACTOR times the random cases (tests/rounds.h).
+function(footwall_slow_test NAME)
+  cmake_parse_arguments(ARG "" "FACTOR;TEST" "" ${ARGN})
+  set(test slow_${NAME}.${ARG_TEST})
+  add_test(NAME ${test} COMMAND unit_${NAME} --gtest_filter=${ARG_TEST})
+  set_tests_properties(${test} PROPERTIES LABELS slow TIMEOUT 900 ENVIRONMENT FOOTWALL_TEST_FACTOR=${ARG_FACTOR}
+    FAIL_REGULAR_EXPRESSION "Running 0 tests")
 endfunction()
 
 # footwall_mpi_test(extract SOURCES extract/reduce_test.cpp LINKS footwall::extract [RANKS 1 2 3 4 7])
