@@ -48,10 +48,9 @@ Error::Error(ErrorCode code, std::string message, std::string hint)
   whole_ = hint_.empty() ? message_ : message_ + " (" + hint_ + ")";
 }
 
-void require(bool condition, std::string_view what, std::source_location where) {
+void require(bool condition, std::string_view what, const char* file, int line) {
   if (condition) return;
-  throw Error(ErrorCode::kInternal,
-              fmt::format("{}:{}: {}", where.file_name(), where.line(), what),
+  throw Error(ErrorCode::kInternal, fmt::format("{}:{}: {}", file, line, what),
               "this is a bug of Footwall: please report it with the command that led here");
 }
 
@@ -59,7 +58,8 @@ Error io_error(std::string_view doing, const std::string& path, int error_number
   const std::string reason = std::generic_category().message(error_number);
   std::string hint;
   if (error_number == ENOSPC || error_number == EDQUOT) hint = "free some space on that disk and try again";
-  if (error_number == EACCES || error_number == EPERM) hint = "check the permissions of the file and its folder";
+  if (error_number == EACCES || error_number == EPERM)
+    hint = "check the permissions of the file and its folder";
   if (error_number == EROFS) hint = "the disk is read-only: choose another folder";
   const ErrorCode code = error_number == ENOENT ? ErrorCode::kNotFound : ErrorCode::kIo;
   return {code, fmt::format("cannot {} {}: {}", doing, path, reason), hint};

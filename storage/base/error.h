@@ -3,7 +3,6 @@
 #pragma once
 #include <cstdint>
 #include <exception>
-#include <source_location>
 #include <string>
 #include <string_view>
 
@@ -31,7 +30,8 @@ ErrorCode error_code_from(std::string_view name);
 
 class Error : public std::exception {
  public:
-  // message: one line that says what happened, with the names and numbers; hint: how to mend it, may be empty.
+  // message: one line that says what happened, with the names and numbers; hint: how to mend it, may be
+  // empty.
   Error(ErrorCode code, std::string message, std::string hint = {});
 
   ErrorCode code() const noexcept { return code_; }
@@ -46,9 +46,10 @@ class Error : public std::exception {
   std::string whole_;
 };
 
-// An always-on check of a public call's precondition: throws kInternal with file and line.
-void require(bool condition, std::string_view what,
-             std::source_location where = std::source_location::current());
+// An always-on check of a public call's precondition: throws kInternal with the caller's file and line. Not
+// std::source_location: clang 14, which clang-tidy reads with, cannot compile libstdc++'s.
+void require(bool condition, std::string_view what, const char* file = __builtin_FILE(),
+             int line = __builtin_LINE());
 
 // Error kIo for the current errno: "cannot <doing> <path>: <reason>".
 Error io_error(std::string_view doing, const std::string& path, int error_number);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <xxhash.h>
+#include <system_error>
 
 #include <charconv>
 
@@ -9,7 +10,9 @@
 
 namespace footwall {
 
-std::uint64_t hash64(std::span<const std::byte> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
+std::uint64_t hash64(std::span<const std::byte> bytes) {
+  return XXH3_64bits(bytes.data(), bytes.size());
+}
 
 struct Hasher::State {
   XXH3_state_t* xxh = XXH3_createState();
@@ -30,9 +33,13 @@ void Hasher::add(std::span<const std::byte> bytes) {
   require(XXH3_64bits_update(state_->xxh, bytes.data(), bytes.size()) == XXH_OK, "XXH3 update failed");
 }
 
-std::uint64_t Hasher::value() const { return XXH3_64bits_digest(state_->xxh); }
+std::uint64_t Hasher::value() const {
+  return XXH3_64bits_digest(state_->xxh);
+}
 
-std::string to_hex(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+std::string to_hex(std::uint64_t hash) {
+  return fmt::format("{:016x}", hash);
+}
 
 std::uint64_t hash_from_hex(const std::string& digits) {
   std::uint64_t hash = 0;

@@ -38,8 +38,12 @@ void JobContext::check() const {
   if (cancelled()) throw Error(ErrorCode::kCancelled, "cancelled", "nothing was changed");
 }
 
-bool JobContext::cancelled() const noexcept { return state_->cancelled.load(std::memory_order_relaxed); }
+bool JobContext::cancelled() const noexcept {
+  return state_->cancelled.load(std::memory_order_relaxed);
+}
 
-void JobContext::cancel() const noexcept { state_->cancelled.store(true, std::memory_order_relaxed); }
+void JobContext::cancel() const noexcept {
+  state_->cancelled.store(true, std::memory_order_relaxed);
+}
 
 }  // namespace footwall

@@ -3,6 +3,8 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <memory>
+
 namespace footwall::log {
 namespace {
 
@@ -17,9 +19,17 @@ spdlog::logger& logger() {
 
 }  // namespace
 
-void info(std::string_view message) { logger().info(message); }
-void warn(std::string_view message) { logger().warn("warning: {}", message); }
-void error(std::string_view message) { logger().error("error: {}", message); }
-void set_quiet(bool quiet) { logger().set_level(quiet ? spdlog::level::warn : spdlog::level::info); }
+void info(std::string_view message) {
+  logger().info(message);
+}
+void warn(std::string_view message) {
+  logger().warn("warning: {}", message);
+}
+void error(std::string_view message) {
+  logger().error("error: {}", message);
+}
+void set_quiet(bool quiet) {
+  logger().set_level(quiet ? spdlog::level::warn : spdlog::level::info);
+}
 
 }  // namespace footwall::log

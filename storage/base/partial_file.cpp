@@ -3,7 +3,9 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
+#include <utility>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <fstream>
@@ -53,6 +55,23 @@ void PartialFile::commit() {
   flush_to_disk(folder_of(final_), O_RDONLY | O_DIRECTORY);
 }
 
+void refuse_to_replace_storage(const std::filesystem::path& path) {
+  // Told by the first bytes, so that it holds for every project, by whatever name or link it is reached.
+  constexpr std::string_view kSqlite{"SQLite format 3\0", 16};
+  constexpr std::string_view kVolume = "footwall volume\n";
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return;
+  std::array<char, 16> start{};
+  std::ifstream(path, std::ios::binary).read(start.data(), start.size());
+  const std::string_view bytes(start.data(), start.size());
+  const bool project = bytes == kSqlite;
+  if (!project && bytes != kVolume) return;
+  throw Error(
+      ErrorCode::kInvalid,
+      fmt::format("{} is a {} and is not written over", path.string(), project ? "project" : "volume"),
+      "choose another name for the output");
+}
+
 void write_whole_file(const std::filesystem::path& path, std::string_view bytes) {
   PartialFile file(path);
   {
@@ -65,11 +84,15 @@ void write_whole_file(const std::filesystem::path& path, std::string_view bytes)
 }
 
 std::string read_whole_file(const std::filesystem::path& path, std::size_t limit) {
+  // A folder opens like a file and says that it is endless.
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw io_error("read", path, EISDIR);
   std::ifstream in(path, std::ios::binary | std::ios::ate);
   if (!in) throw io_error("read", path, errno);
   const auto size = static_cast<std::size_t>(in.tellg());
   if (size > limit) {
-    throw Error(ErrorCode::kMemory, fmt::format("{} has {} bytes, more than the {} expected", path.string(), size, limit));
+    throw Error(ErrorCode::kMemory,
+                fmt::format("{} has {} bytes, more than the {} expected", path.string(), size, limit));
   }
   std::string bytes(size, '\0');
   in.seekg(0);

@@ -6,7 +6,8 @@ namespace footwall {
 
 class PartialFile {
  public:
-  // Picks a private temporary name in final_path's folder; creates nothing. Throws kNotFound without that folder.
+  // Picks a private temporary name in final_path's folder; creates nothing. Throws kNotFound without that
+  // folder.
   explicit PartialFile(std::filesystem::path final_path);
   // Removes the temporary file unless commit() was reached.
   ~PartialFile();
@@ -24,9 +25,13 @@ class PartialFile {
   bool committed_ = false;
 };
 
+// For files that the user names: throws kInvalid where a project or a volume file stands at the path, which
+// no export is ever meant to replace.
+void refuse_to_replace_storage(const std::filesystem::path& path);
 // Writes a whole small file through PartialFile.
 void write_whole_file(const std::filesystem::path& path, std::string_view bytes);
-// Reads a whole file of at most `limit` bytes; throws kNotFound, kIo, or kMemory above the limit.
+// Reads a whole file of at most `limit` bytes; throws kNotFound, kIo (also for a folder), or kMemory above
+// the limit.
 std::string read_whole_file(const std::filesystem::path& path, std::size_t limit);
 
 }  // namespace footwall

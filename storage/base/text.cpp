@@ -1,6 +1,8 @@
 #include "storage/base/text.h"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <system_error>
 
 #include <charconv>
 #include <cmath>
@@ -50,9 +52,13 @@ std::vector<std::string_view> split(std::string_view line, char separator) {
   }
 }
 
-std::optional<double> number(std::string_view word) { return parsed<double>(word); }
+std::optional<double> number(std::string_view word) {
+  return parsed<double>(word);
+}
 
-std::optional<std::int64_t> integer(std::string_view word) { return parsed<std::int64_t>(word); }
+std::optional<std::int64_t> integer(std::string_view word) {
+  return parsed<std::int64_t>(word);
+}
 
 std::string shortest(double value) {
   if (std::isnan(value)) return {};

@@ -1,4 +1,4 @@
-// Small helpers for reading and printing text files without locale.
+// Words and numbers of text files, read and printed without locale.
 #pragma once
 #include <cstdint>
 #include <optional>

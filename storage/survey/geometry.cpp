@@ -18,14 +18,19 @@ constexpr std::int64_t kMostVoxelsOnAxis = std::int64_t{1} << 23;
 }
 
 void check_axis(std::string_view name, std::int64_t count) {
-  if (count < 1 || count > kMostVoxelsOnAxis) refuse(fmt::format("{} {}; 1 to {} are possible", count, name, kMostVoxelsOnAxis));
+  if (count < 1 || count > kMostVoxelsOnAxis)
+    refuse(fmt::format("{} {}; 1 to {} are possible", count, name, kMostVoxelsOnAxis));
 }
 
-double determinant(const MapView& m) { return m.per_inline_x * m.per_crossline_y - m.per_inline_y * m.per_crossline_x; }
+double determinant(const MapView& m) {
+  return m.per_inline_x * m.per_crossline_y - m.per_inline_y * m.per_crossline_x;
+}
 
 }  // namespace
 
-std::string_view name_of(Domain domain) { return domain == Domain::kTime ? "time" : "depth"; }
+std::string_view name_of(Domain domain) {
+  return domain == Domain::kTime ? "time" : "depth";
+}
 
 std::string_view name_of(VerticalUnit unit) {
   if (unit == VerticalUnit::kMillisecond) return "ms";
@@ -67,9 +72,12 @@ IndexPoint Geometry::index_of(const WorldPoint& p) const {
 
 double Geometry::vertical_metres(double z_difference, double velocity_metres_per_second) const {
   switch (vertical_unit) {
-    case VerticalUnit::kMillisecond: return z_difference * 1e-3 * velocity_metres_per_second / 2;
-    case VerticalUnit::kFoot: return z_difference * kMetresPerFoot;
-    case VerticalUnit::kMetre: break;
+    case VerticalUnit::kMillisecond:
+      return z_difference * 1e-3 * velocity_metres_per_second / 2;
+    case VerticalUnit::kFoot:
+      return z_difference * kMetresPerFoot;
+    case VerticalUnit::kMetre:
+      break;
   }
   return z_difference;
 }
@@ -85,8 +93,8 @@ void Geometry::validate() const {
   if (inlines.step < 1 || crosslines.step < 1) refuse("a line step below 1");
   if (!(interval > 0) || !std::isfinite(interval)) refuse(fmt::format("sample interval {}", interval));
   if (!std::isfinite(z0)) refuse(fmt::format("first sample at {}", z0));
-  for (const double value : {map.origin_x, map.origin_y, map.per_inline_x, map.per_inline_y, map.per_crossline_x,
-                             map.per_crossline_y}) {
+  for (const double value : {map.origin_x, map.origin_y, map.per_inline_x, map.per_inline_y,
+                             map.per_crossline_x, map.per_crossline_y}) {
     if (!std::isfinite(value)) refuse("a coordinate that is not finite");
   }
   if (determinant(map) == 0) refuse("inlines and crosslines run in the same direction");

@@ -32,7 +32,8 @@ struct LineAxis {
   friend bool operator==(const LineAxis&, const LineAxis&) = default;
 };
 
-// X = origin_x + per_inline_x * i + per_crossline_x * j, the same for Y: through sample centres, either handedness.
+// X = origin_x + per_inline_x * i + per_crossline_x * j, the same for Y: through sample centres, either
+// handedness.
 struct MapView {
   double origin_x = 0;
   double origin_y = 0;
@@ -52,9 +53,9 @@ struct Geometry {
   Domain domain = Domain::kTime;
   VerticalUnit vertical_unit = VerticalUnit::kMillisecond;
   MapView map;
-  std::string crs;                   // as the user named it; empty = not stated
-  std::string horizontal_unit = "m"; // of X and Y: "m" or "ft"
-  std::vector<std::string> assumed;  // what had to be assumed, in words, for `info`
+  std::string crs;                    // as the user named it; empty = not stated
+  std::string horizontal_unit = "m";  // of X and Y: "m" or "ft"
+  std::vector<std::string> assumed;   // what had to be assumed, in words, for `info`
 
   Index dims() const { return {inlines.count, crosslines.count, samples}; }
   Box box() const { return {{0, 0, 0}, dims()}; }
@@ -63,8 +64,8 @@ struct Geometry {
   WorldPoint world_of(const IndexPoint& p) const;
   // Throws Error kInvalid if the map is singular (lines on top of each other).
   IndexPoint index_of(const WorldPoint& p) const;
-  // A position in metres east, north and up-positive-down z converted to metres; a time survey uses `velocity`
-  // in m/s (two-way time, so half of it). For areas and dips; see has_metric_depth().
+  // A position in metres east, north and up-positive-down z converted to metres; a time survey uses
+  // `velocity` in m/s (two-way time, so half of it). For areas and dips; see has_metric_depth().
   double vertical_metres(double z_difference, double velocity_metres_per_second) const;
   double horizontal_metres(double difference) const;
 

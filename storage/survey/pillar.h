@@ -12,9 +12,12 @@ enum class PillarKind : std::uint8_t { kInterpreted, kInterpolated, kSnapped };
 
 constexpr std::string_view name_of(PillarKind kind) {
   switch (kind) {
-    case PillarKind::kInterpolated: return "interpolated";
-    case PillarKind::kSnapped: return "snapped";
-    case PillarKind::kInterpreted: break;
+    case PillarKind::kInterpolated:
+      return "interpolated";
+    case PillarKind::kSnapped:
+      return "snapped";
+    case PillarKind::kInterpreted:
+      break;
   }
   return "interpreted";
 }

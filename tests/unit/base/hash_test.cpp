@@ -24,7 +24,8 @@ TEST(Hash, PiecesGiveTheHashOfTheWhole) {
 TEST(Hash, HexReadsBackAndRefusesAnythingElse) {
   EXPECT_EQ(hash_from_hex(to_hex(0x0123456789abcdefULL)), 0x0123456789abcdefULL);
   EXPECT_EQ(to_hex(1), "0000000000000001");
-  for (const char* bad : {"", "1", "000000000000000g", "00000000000000001"}) EXPECT_THROW(hash_from_hex(bad), Error) << bad;
+  for (const char* bad : {"", "1", "000000000000000g", "00000000000000001"})
+    EXPECT_THROW(hash_from_hex(bad), Error) << bad;
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ TEST(Text, NumbersMustFillTheWholeWord) {
 }
 
 TEST(Text, ShortestReadsBackAsTheSameDouble) {
-  for (const double value : {0.1, 1.0 / 3, 6084991.7, 1e-300, -0.0}) EXPECT_EQ(number(shortest(value)), value);
+  for (const double value : {0.1, 1.0 / 3, 6084991.7, 1e-300, -0.0})
+    EXPECT_EQ(number(shortest(value)), value);
   EXPECT_EQ(shortest(std::numeric_limits<double>::quiet_NaN()), "");
 }
 
