@@ -1,0 +1,148 @@
+#include "storage/project/detail/undo_log.h"
+
+#include <fmt/format.h>
+#include <cstring>
+
+#include "storage/project/detail/changeset.h"
+#include "storage/project/detail/clock.h"
+#include "storage/project/detail/schema.h"
+#include "storage/project/detail/sqlite.h"
+
+namespace footwall::project::detail {
+namespace {
+
+// SQLite's own allocation, copied and freed.
+Bytes adopted(void* data, int size) {
+  const auto* begin = static_cast<const std::byte*>(data);
+  Bytes bytes(begin, begin + size);
+  sqlite3_free(data);
+  return bytes;
+}
+
+Bytes inverted(Database& database, Bytes& changeset) {
+  void* data = nullptr;
+  int size = 0;
+  const int rc = sqlite3changeset_invert(static_cast<int>(changeset.size()), changeset.data(), &size, &data);
+  if (rc != SQLITE_OK) throw database.failure(rc, "read the undo log of");
+  return adopted(data, size);
+}
+
+// A step fits exactly what the step before it left; anything else means that the file was changed behind our
+// back.
+int refuse_conflict(void* conflicts, int, sqlite3_changeset_iter*) {
+  ++*static_cast<int*>(conflicts);
+  return SQLITE_CHANGESET_ABORT;
+}
+
+// A changeset from an untrusted file must not reach tables outside undo.
+int only_under_undo(void*, const char* table) {
+  for (const char* known : tables_under_undo()) {
+    if (std::strcmp(known, table) == 0) return 1;
+  }
+  return 0;
+}
+
+}  // namespace
+
+ChangeRecorder::ChangeRecorder(Database& database) : database_(database) {
+  int rc = sqlite3session_create(database.handle(), "main", &session_);
+  for (const char* table : tables_under_undo()) {
+    if (rc == SQLITE_OK) rc = sqlite3session_attach(session_, table);
+  }
+  if (rc != SQLITE_OK) {
+    sqlite3session_delete(session_);
+    throw database.failure(rc, "record changes of");
+  }
+}
+
+ChangeRecorder::~ChangeRecorder() {
+  sqlite3session_delete(session_);
+}
+
+Bytes ChangeRecorder::changeset() const {
+  void* data = nullptr;
+  int size = 0;
+  const int rc = sqlite3session_changeset(session_, &size, &data);
+  if (rc != SQLITE_OK) throw database_.failure(rc, "record changes of");
+  return adopted(data, size);
+}
+
+void UndoLog::check(const Bytes& changeset) const {
+  std::vector<ChangesetTable> tables;
+  for (const char* table : tables_under_undo()) {
+    const auto columns =
+        database_.integer(fmt::format("SELECT count(*) FROM pragma_table_info('{}')", table));
+    tables.push_back({table, static_cast<std::size_t>(columns)});
+  }
+  check_changeset(changeset, tables);
+}
+
+std::int64_t UndoLog::add(const std::string& name, const Bytes& changeset) {
+  Query(database_, "DELETE FROM edit WHERE undone = 1").run();
+  Query(database_, "INSERT INTO edit(name, made, undone, barrier, changeset) VALUES(?, ?, 0, 0, ?)", name,
+        now_text(), changeset)
+      .run();
+  return database_.integer("SELECT last_insert_rowid()");
+}
+
+std::optional<std::string> UndoLog::undo() {
+  std::int64_t id = 0;
+  std::string name;
+  Bytes changeset;
+  {
+    Query row(database_,
+              "SELECT id, name, barrier, changeset FROM edit WHERE undone = 0 ORDER BY id DESC LIMIT 1");
+    if (!row.next() || row.integer(2) != 0) return std::nullopt;
+    id = row.integer(0);
+    name = row.text(1);
+    changeset = row.blob(3);
+  }
+  check(changeset);
+  apply(inverted(database_, changeset), name);
+  Query(database_, "UPDATE edit SET undone = 1 WHERE id = ?", id).run();
+  return name;
+}
+
+std::optional<std::string> UndoLog::redo() {
+  std::int64_t id = 0;
+  std::string name;
+  Bytes changeset;
+  {
+    Query row(database_, "SELECT id, name, changeset FROM edit WHERE undone = 1 ORDER BY id LIMIT 1");
+    if (!row.next()) return std::nullopt;
+    id = row.integer(0);
+    name = row.text(1);
+    changeset = row.blob(2);
+  }
+  check(changeset);
+  apply(changeset, name);
+  Query(database_, "UPDATE edit SET undone = 0 WHERE id = ?", id).run();
+  return name;
+}
+
+void UndoLog::apply(const Bytes& changeset, const std::string& name) {
+  int conflicts = 0;
+  Bytes input = changeset;  // SQLite's signature wants it writable
+  const int rc = sqlite3changeset_apply(database_.handle(), static_cast<int>(input.size()), input.data(),
+                                        only_under_undo, refuse_conflict, &conflicts);
+  if (conflicts > 0 || rc == SQLITE_CORRUPT || rc == SQLITE_ABORT) {
+    throw Error(
+        ErrorCode::kCorrupt,
+        fmt::format(
+            "the step '{}' does not fit the interpretation: the project was changed by another program",
+            name),
+        "restore the project from a copy");
+  }
+  if (rc != SQLITE_OK) throw database_.failure(rc, "apply a step of the undo log to");
+}
+
+std::vector<HistoryStep> UndoLog::steps() const {
+  std::vector<HistoryStep> steps;
+  Query row(database_, "SELECT id, name, made, undone, barrier FROM edit ORDER BY id");
+  while (row.next()) {
+    steps.push_back({row.integer(0), row.text(1), row.text(2), row.integer(3) != 0, row.integer(4) != 0});
+  }
+  return steps;
+}
+
+}  // namespace footwall::project::detail

@@ -1,0 +1,154 @@
+// A project: NAME.footwall (SQLite) and the folder NAME.footwall.volumes/ beside it (docs: design of the file
+// in schema.cpp). One thread at a time; one writer at a time on all hosts, any number of readers.
+//
+// Every interpretation change goes through edit(): one transaction, one named step of the undo log, on disk
+// when edit() returns. Meshes, runs and volumes are derived or imported: outside undo.
+//
+// Errors: kHeld when somebody else writes (message names host, process and since when); kFormat for a file
+// that is no project or was tampered with; kCorrupt for a damaged one; kUnsupported for one made by a newer
+// program; kNotFound, kInvalid, kIo as usual. Calls that write throw kInvalid on a project that is read-only.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "storage/project/interpretation.h"
+#include "storage/project/records.h"
+#include "storage/survey/geometry.h"
+#include "storage/survey/pillar.h"
+#include "storage/survey/surface.h"
+
+namespace footwall::project {
+
+enum class OpenMode : std::uint8_t { kRead, kWrite };
+enum class FileSystem : std::uint8_t { kLocal, kNetwork, kReadOnly };
+
+// One numbered step from schema version to - 1 to `to`. Tables under undo may only get columns appended; any
+// other change to them sets ends_history.
+struct Migration {
+  int to = 2;
+  std::string name;
+  std::string sql;
+  bool ends_history = false;
+};
+
+struct OpenOptions {
+  std::optional<FileSystem> file_system;  // unset: asked from the operating system
+  std::vector<Migration> migrations;      // after the program's own; for tests
+  std::string edit_socket;                // written into the lock, for those who find the project held
+};
+
+// Positions for interpolated pillars whose parents moved: one polyline per child, with any number of nodes
+// >= 1. pillars: all of the fault, with the parents' new positions.
+using Regenerator = std::function<std::vector<std::vector<survey::WorldPoint>>(
+    const FaultRecord& fault, std::span<const survey::Pillar> pillars,
+    std::span<const survey::Pillar> children)>;
+
+class Project {
+ public:
+  // Refuses an existing file. The new project is open for writing.
+  static Project create(const std::filesystem::path& path, const std::optional<survey::Geometry>& survey,
+                        const OpenOptions& options = {});
+  // kWrite takes the writer's lock and brings an older file up to date after a backup copy beside it. kRead
+  // never writes; on read-only media the file is opened immutable.
+  static Project open(const std::filesystem::path& path, OpenMode mode, const OpenOptions& options = {});
+  Project(Project&&) noexcept;
+  Project& operator=(Project&&) noexcept;
+  // Closes; errors are logged. close() throws them.
+  ~Project();
+  // Folds the write-ahead log into the file and frees the lock; nothing else may be called afterwards.
+  void close();
+
+  const std::filesystem::path& path() const;
+  std::filesystem::path volumes_folder() const;  // NAME.footwall.volumes, not created by this
+  bool read_only() const;
+  // What the user should see: network file system, a lock taken over, an upgrade done.
+  std::vector<std::string> notices() const;
+  int schema_version() const;
+
+  // The survey. set_survey refuses (kInvalid) to change index space once volumes exist.
+  std::optional<survey::Geometry> survey() const;
+  std::string survey_provenance() const;  // JSON
+  void set_survey(const survey::Geometry& geometry, const std::string& provenance = "{}");
+  // Small named facts about the project, e.g. "velocity" in m/s. Not under undo.
+  std::optional<std::string> setting(const std::string& name) const;
+  void set_setting(const std::string& name, const std::string& value);
+
+  // Volumes, in the order they were added.
+  std::vector<VolumeRecord> volumes() const;
+  // An empty name means the only (or the first) one; kNotFound lists the names.
+  VolumeRecord volume(const std::string& name) const;
+  std::filesystem::path volume_path(const VolumeRecord& volume) const;
+  // The file's name as VolumeRecord::file wants it.
+  std::string relative_file(const std::filesystem::path& file) const;
+  std::int64_t add_volume(const VolumeRecord& volume);
+  void update_volume(const VolumeRecord& volume);  // by id
+  void delete_volume(std::int64_t id);             // the row, not the file
+  // Compares existence and size; checksums are the volume reader's business.
+  std::vector<MissingFile> missing() const;
+  // Points a volume to where its file went; refuses a file of another size, and of another checksum where
+  // given.
+  void relink(const std::string& volume, const std::filesystem::path& file,
+              const std::optional<std::string>& checksum = {});
+
+  // The interpretation, read. Faults and surfaces in the order they were made; pillars by id.
+  std::vector<FaultRecord> faults() const;
+  FaultRecord fault(const std::string& name) const;  // kNotFound lists the names
+  FaultRecord fault(std::int64_t id) const;
+  std::vector<survey::Pillar> pillars(std::int64_t fault) const;
+  std::vector<SurfaceRecord> surfaces() const;
+  survey::Surface surface(std::int64_t id) const;
+
+  // The interpretation, written: only here. An exception from `change` rolls everything back and passes
+  // through; an edit that changes nothing records nothing; a new edit drops what could be redone. Not
+  // reentrant.
+  EditResult edit(const std::string& name, const std::function<void(Interpretation&)>& change);
+  void set_regenerator(Regenerator regenerator);
+  // The step's name; nothing when there is no step (left).
+  std::optional<std::string> undo();
+  std::optional<std::string> redo();
+  std::vector<HistoryStep> history() const;  // oldest first
+
+  // Meshes. Stale: there is none, or the fault's shape changed since (undo makes it fresh again).
+  void store_mesh(std::int64_t fault, const MeshRecord& mesh);
+  std::optional<MeshRecord> mesh(std::int64_t fault) const;
+  bool mesh_is_stale(std::int64_t fault) const;
+
+  // The true surfaces of a synthetic survey; never among the faults.
+  void add_truth(const survey::Surface& surface, const std::string& kind);
+  std::vector<survey::Surface> truth() const;
+
+  // Statistics that runs may hold; registering again updates the row.
+  std::vector<StatisticRecord> statistics() const;
+  void register_statistics(std::span<const StatisticRecord> statistics);
+
+  // Runs, oldest first. add_run writes everything in one transaction; statistics must be registered.
+  std::int64_t add_run(const RunRecord& run, std::span<const FaultRun> faults);
+  std::vector<RunRecord> runs() const;
+  RunRecord run(std::optional<std::int64_t> id) const;  // unset: the last one
+  std::vector<std::int64_t> run_faults(std::int64_t run) const;
+  FaultRun fault_statistics(std::int64_t run, std::int64_t fault) const;
+  void delete_run(std::int64_t run);
+  // One entry per face of the run: true where the present mesh has no face of that id at those lattice
+  // positions, or the fault is gone or edited and not yet triangulated again.
+  std::vector<bool> stale_faces(std::int64_t run, std::int64_t fault) const;
+
+  // integrity_check, foreign keys, and every stored blob against the counts that describe it.
+  IntegrityReport check() const;
+
+ private:
+  struct State;
+  explicit Project(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+// Throws kInvalid for what cannot be the name of a `what`, "volume" or "run": empty, over 200 bytes, control
+// characters, bytes that are not UTF-8, or blanks at an end.
+void check_name(std::string_view what, const std::string& name);
+
+}  // namespace footwall::project
