@@ -1,0 +1,194 @@
+#include "engine/extract/extract.h"
+
+#include <omp.h>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <tuple>
+
+#include "engine/extract/balance/none.h"
+#include "engine/extract/exchange/exchange.h"
+#include "engine/extract/registry.h"
+#include "engine/extract/statistics/discontinuity.h"
+#include "engine/voxelize/simd.h"
+#include "storage/base/hash.h"
+
+namespace footwall::extract {
+namespace {
+
+constexpr std::int64_t kSlabInlines = 64;  // read at once: the usual chunk of a volume file
+
+bool computes_discontinuity(const Options& options) {
+  return options.compute.empty() ||
+         std::find(options.compute.begin(), options.compute.end(), "discontinuity") != options.compute.end();
+}
+
+// Reads wanted() in slabs of whole chunks of inlines; every rank makes the same number of calls.
+void read_block(const comm::Communicator& world, const ReadBox& read, const JobContext& job, Block& block) {
+  const survey::Box& wanted = block.wanted();
+  const std::int64_t first = wanted.empty() ? 0 : wanted.lo[0] / kSlabInlines;
+  const std::int64_t last = wanted.empty() ? 0 : (wanted.hi[0] + kSlabInlines - 1) / kSlabInlines;
+  const std::int64_t rounds = world.maximum(last - first);
+  std::vector<float> values;
+  for (std::int64_t round = 0; round < rounds; ++round) {
+    survey::Box slab = wanted;
+    slab.lo[0] = std::max(wanted.lo[0], (first + round) * kSlabInlines);
+    slab.hi[0] = std::min(wanted.hi[0], (first + round + 1) * kSlabInlines);
+    if (slab.empty()) slab = {};
+    world.collectively([&] {
+      job.report(static_cast<double>(round) / static_cast<double>(rounds), "read",
+                 std::to_string(round) + " of " + std::to_string(rounds) + " slabs");
+      values.resize(static_cast<std::size_t>(slab.count()));
+    });
+    world.collectively([&] { read(slab, values); });  // throws on all ranks or on none, as promised
+    block.put(slab, values);
+  }
+}
+
+// The results of all ranks at rank 0, in the order of the input.
+std::vector<FaceStatistics> gathered(comm::Communicator& world, const std::vector<Finished>& mine,
+                                     std::size_t faces) {
+  static_assert(std::is_trivially_copyable_v<Finished>);
+  const std::vector<comm::Bytes> parts = world.exchange(world.collectively([&] {
+    std::vector<comm::Bytes> outgoing(static_cast<std::size_t>(world.size()));
+    const auto raw = std::as_bytes(std::span(mine));
+    outgoing[0].assign(raw.begin(), raw.end());
+    return outgoing;
+  }));
+  return world.collectively([&] {
+    std::vector<FaceStatistics> all;
+    if (world.rank() != 0) return all;
+    all.resize(faces);
+    std::size_t seen = 0;
+    for (const comm::Bytes& part : parts) {
+      for (std::size_t at = 0; at < part.size(); at += sizeof(Finished), ++seen) {
+        Finished finished;
+        std::memcpy(&finished, part.data() + at, sizeof finished);
+        all.at(static_cast<std::size_t>(finished.face)) = finished.statistics;
+      }
+    }
+    require(seen == faces, "one result for every face");
+    return all;
+  });
+}
+
+template <typename T>
+void append(T value, std::vector<std::byte>& bytes) {
+  static_assert(std::endian::native == std::endian::little);
+  const auto raw = std::as_bytes(std::span(&value, 1));
+  bytes.insert(bytes.end(), raw.begin(), raw.end());
+}
+
+double canonical(double value) {
+  return std::isnan(value) ? kUndefined : value;
+}
+
+}  // namespace
+
+bool inside(const survey::LatticeTriangle& triangle, const survey::Index& dims) {
+  constexpr std::int64_t kHalf = survey::kLatticePerVoxel / 2;
+  return std::all_of(triangle.begin(), triangle.end(), [&](const survey::LatticePoint& p) {
+    const survey::Index at{p.i, p.j, p.k};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (at[axis] < -kHalf || at[axis] > (dims[axis] - 1) * survey::kLatticePerVoxel + kHalf) return false;
+    }
+    return true;
+  });
+}
+
+void validate(const Options& options) {
+  find_row(exchange_rows(), "exchange", options.exchange);
+  find_row(balance_rows(), "balance", options.balance);
+  for (const std::string& name : options.compute) find_row(statistic_rows(), "statistic", name);
+  find_row(voxelizer_rows(), "voxelizer", options.voxelizer);
+  if (options.threads < 1 || options.threads > 1024) {
+    throw Error(ErrorCode::kUsage, "there cannot be " + std::to_string(options.threads) + " threads",
+                "give 1 to 1024 threads for each rank");
+  }
+}
+
+Result extract_all(const comm::Communicator& parent, const Input& input, const Options& options,
+                   const ReadBox& read, const JobContext& job) {
+  const double start = omp_get_wtime();
+  const comm::RankGrid grid = parent.collectively([&] {
+    validate(options);
+    voxelize::apply_forced_simd();
+    if (input.dims[0] < 1 || input.dims[1] < 1 || input.dims[2] < 1) {
+      throw Error(ErrorCode::kInvalid, "the survey has no voxels");
+    }
+    return comm::RankGrid(input.dims, parent.size());
+  });
+  comm::Communicator world(parent, grid);
+
+  // 1 read
+  auto [responsible, block] = world.collectively(
+      [&] { return std::pair(balance_none(grid, input.faces), Block(grid.box(world.rank()), input.dims)); });
+  read_block(world, read, job.part(0, 0.5), block);
+  const double read_done = omp_get_wtime();
+
+  // 2 voxelize, 3 exchange, 4 compute
+  const bool with_discontinuity = computes_discontinuity(options);
+  const double scale =
+      world.collectively([&] { return with_discontinuity ? discontinuity_scale(input.max_abs) : 0; });
+  const JobContext rest = job.part(0.5, 0.95);
+  const Setup setup{
+      world,           grid, block, input, responsible, options.voxelizer, with_discontinuity, scale,
+      options.threads, rest};
+  const bool minimum = options.exchange == "minimum";
+  const Outcome outcome = minimum ? exchange_minimum(setup) : exchange_reduce(setup);
+  const comm::Traffic traffic = world.traffic();
+
+  Result result;
+  result.faces = gathered(world, outcome.finished, input.faces.size());
+  Report& report = result.report;
+  report.exchange = minimum ? "minimum" : "reduce";
+  report.balance = options.balance;
+  report.ranks = world.size();
+  report.threads = options.threads;
+  report.faces = static_cast<std::int64_t>(input.faces.size());
+  report.voxels = world.sum(outcome.walked);
+  report.bytes_sent = world.sum(traffic.bytes);
+  report.messages = world.sum(traffic.messages);
+  if (report.voxels > 0) {
+    report.load_max_over_mean = static_cast<double>(world.maximum(outcome.walked)) * world.size() /
+                                static_cast<double>(report.voxels);
+  }
+  const auto hash = static_cast<std::int64_t>(
+      world.collectively([&] { return world.rank() == 0 ? checksum_of(input.faces, result.faces) : 0; }));
+  report.checksum = static_cast<std::uint64_t>(world.sum(hash));  // the others add 0
+  report.seconds.read = world.maximum(read_done - start);
+  report.seconds.voxelize = world.maximum(outcome.seconds.voxelize);
+  report.seconds.exchange = world.maximum(outcome.seconds.exchange);
+  report.seconds.compute = world.maximum(outcome.seconds.compute);
+  report.seconds.total = world.maximum(omp_get_wtime() - start);
+  return result;
+}
+
+std::uint64_t checksum_of(std::span<const Face> faces, std::span<const FaceStatistics> statistics) {
+  require(faces.size() == statistics.size(), "statistics of every face");
+  std::vector<std::size_t> order(faces.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tie(faces[a].fault, faces[a].owner, faces[a].n) <
+           std::tie(faces[b].fault, faces[b].owner, faces[b].n);
+  });
+  Hasher hasher;
+  std::vector<std::byte> bytes;
+  for (const std::size_t n : order) {
+    const FaceStatistics& face = statistics[n];
+    bytes.clear();
+    for (const std::int64_t whole : {faces[n].fault, faces[n].owner, std::int64_t{faces[n].n}, face.count,
+                                     face.nulls, static_cast<std::int64_t>(face.outside)}) {
+      append(whole, bytes);
+    }
+    for (const double value : {face.mean, face.variance, face.min, face.max, face.discontinuity}) {
+      append(canonical(value), bytes);
+    }
+    hasher.add(bytes);
+  }
+  return hasher.value();
+}
+
+}  // namespace footwall::extract

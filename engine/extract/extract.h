@@ -1,0 +1,38 @@
+// EXTRACT-ALL: the statistics of every face, over the voxels that it cuts, on all ranks of a communicator.
+// Based on: seed 004, chapter 3; differs in that sums are exact, so that the numbers do not depend on rank
+// count, exchange strategy, threads or SIMD path.
+#pragma once
+#include <functional>
+#include <span>
+
+#include "engine/comm/communicator.h"
+#include "engine/extract/face.h"
+#include "storage/base/job_context.h"
+#include "storage/survey/box.h"
+
+namespace footwall::extract {
+
+struct Input {
+  survey::Index dims{0, 0, 0};  // of the survey; its voxels are [0, dims)
+  double max_abs = 0;           // max |V| of the whole volume: scales the discontinuity's fixed point
+  std::span<const Face> faces;  // the same on every rank
+};
+
+// Gives the values of `box`, [inline][crossline][sample], NaN for nulls. Called collectively, equally often
+// on every rank, perhaps with an empty box; must throw on all ranks or on none.
+using ReadBox = std::function<void(const survey::Box& box, std::span<float> values)>;
+
+// Throws Error kUsage for names that are unknown or not built, before anything is read. No communication.
+void validate(const Options& options);
+
+// Steps, each a timed phase: 1 read the rank's box and a halo of one trace; 2 voxelize; 3 exchange; 4
+// compute; then gather the results at rank 0. Collective; cancellable per face; errors are the same on every
+// rank. Throws kUsage (options), kMemory, kCorrupt (a sample far above max_abs), kCancelled.
+Result extract_all(const comm::Communicator& world, const Input& input, const Options& options,
+                   const ReadBox& read, const JobContext& job = {});
+
+// hash64 over (fault, owner, n, count, nulls, outside, mean, variance, min, max, discontinuity) of every face
+// in order of its identity, little-endian, all NaNs alike.
+std::uint64_t checksum_of(std::span<const Face> faces, std::span<const FaceStatistics> statistics);
+
+}  // namespace footwall::extract

@@ -1,0 +1,80 @@
+// What goes into EXTRACT-ALL and what comes out of it, as plain values.
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "storage/survey/points.h"
+
+namespace footwall::extract {
+
+// One triangle of a fault's mesh. Its identity is (fault, owner, n): owner is the pillar or panel it belongs
+// to.
+struct Face {
+  std::int64_t fault = 0;
+  std::int64_t owner = 0;
+  std::int32_t n = 0;
+  survey::LatticeTriangle triangle;
+  friend bool operator==(const Face&, const Face&) = default;
+};
+
+enum class Outside : std::uint8_t {
+  kInside = 0,  // the closed triangle lies in the survey's box [-1/2, n-1/2]
+  kPartly = 1,  // some of its voxels are counted, some are not there
+  kWholly = 2   // no voxel of the survey is touched
+};
+
+inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+
+// The statistics of one face over VOXELIZE(face) inside the survey. NaN = undefined.
+struct FaceStatistics {
+  std::int64_t count = 0;  // voxels with a finite value
+  std::int64_t nulls = 0;  // voxels that are null, NaN or infinite
+  Outside outside = Outside::kInside;
+  double mean = kUndefined;      // NaN where count is 0
+  double variance = kUndefined;  // sample variance; 0 where count is 0 or 1
+  double min = kUndefined;       // NaN where count is 0; never -0
+  double max = kUndefined;
+  double discontinuity = kUndefined;  // 0..1; NaN where not asked for or not defined
+};
+
+struct Options {
+  std::string exchange = "auto";  // a name of exchange_rows()
+  std::string balance = "none";   // a name of balance_rows()
+  std::string voxelizer = "exact";
+  // Statistics to compute; empty = all. count, mean, variance, min and max come together.
+  std::vector<std::string> compute;
+  int threads = 1;  // OpenMP threads of each rank, at least 1
+  friend bool operator==(const Options&, const Options&) = default;
+};
+
+// Seconds are of the slowest rank in each phase, amounts are sums over ranks.
+struct Seconds {
+  double read = 0;
+  double voxelize = 0;  // voxelizing and, with `reduce`, folding on the way
+  double exchange = 0;
+  double compute = 0;
+  double total = 0;
+};
+
+struct Report {
+  std::string exchange;  // the strategy that ran: never "auto"
+  std::string balance;
+  int ranks = 1;
+  int threads = 1;
+  std::int64_t faces = 0;
+  std::int64_t voxels = 0;      // count + nulls over all faces
+  std::int64_t bytes_sent = 0;  // by the exchange phase, sizes included
+  std::int64_t messages = 0;
+  double load_max_over_mean = 1;  // of the voxels each rank walked; 1 where there are none
+  std::uint64_t checksum = 0;     // of ids and statistics, see checksum_of()
+  Seconds seconds;
+};
+
+struct Result {
+  std::vector<FaceStatistics> faces;  // on rank 0 in the order of the input; empty elsewhere
+  Report report;                      // on every rank
+};
+
+}  // namespace footwall::extract

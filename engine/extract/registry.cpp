@@ -1,0 +1,80 @@
+#include "engine/extract/registry.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "engine/voxelize/registry.h"
+#include "storage/base/error.h"
+
+namespace footwall::extract {
+namespace {
+
+constexpr std::array kExchanges{
+    Row{"auto", true, "the fastest that the statistics allow; at present reduce"},
+    Row{"reduce", true, "owners fold their own voxels into exact partial sums; no voxel moves"},
+    Row{"minimum", true, "the responsible rank asks the owners for the voxels that it lacks, by coordinates"},
+    Row{"block", false, "like minimum, with blocks of voxels around each"},
+    Row{"bounding", false, "owners send the faces' bounding volumes"},
+    Row{"push", false, "owners send the values that nobody had to ask for"}};
+
+constexpr std::array kBalances{Row{"none", true, "the rank of a face's centroid is responsible for it"},
+                               Row{"minimal", false, "moves as few voxels as an even load needs"},
+                               Row{"global", false, "faces of overloaded ranks go to any other"},
+                               Row{"local", false, "faces of overloaded ranks go to neighbours"},
+                               Row{"manhattan", false, "faces go to the nearest rank with room"}};
+
+constexpr std::array kStatistics{
+    Row{"count", true, "voxels with a value"},
+    Row{"mean", true, "mean amplitude"},
+    Row{"variance", true, "sample variance of the amplitude"},
+    Row{"min", true, "smallest amplitude"},
+    Row{"max", true, "largest amplitude"},
+    Row{"discontinuity", true, "0 where the traces around are alike, towards 1 where they are not"}};
+
+}  // namespace
+
+std::span<const Row> exchange_rows() {
+  return kExchanges;
+}
+std::span<const Row> balance_rows() {
+  return kBalances;
+}
+std::span<const Row> voxelizer_rows() {
+  static const std::vector<Row> rows = [] {
+    std::vector<Row> known;
+    for (const voxelize::Method& method : voxelize::methods()) {
+      known.push_back({method.name, method.make != nullptr, method.help});
+    }
+    return known;
+  }();
+  return rows;
+}
+std::span<const Row> statistic_rows() {
+  return kStatistics;
+}
+
+const Row& find_row(std::span<const Row> rows, std::string_view family, std::string_view text) {
+  const std::size_t equals = text.find('=');
+  const std::string_view name = text.substr(0, equals);
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.name == name; });
+  std::string built;
+  for (const Row& each : rows) {
+    if (each.built) built += (built.empty() ? "" : ", ") + std::string(each.name);
+  }
+  if (row == rows.end()) {
+    throw Error(ErrorCode::kUsage, "there is no " + std::string(family) + " '" + std::string(text) + "'",
+                "choose one of: " + built);
+  }
+  if (!row->built) {
+    throw Error(ErrorCode::kUsage, std::string(family) + " '" + std::string(name) + "' is not built yet",
+                "choose one of: " + built);
+  }
+  if (equals != std::string_view::npos) {
+    throw Error(ErrorCode::kUsage, std::string(family) + " '" + std::string(name) + "' takes no parameter");
+  }
+  return *row;
+}
+
+}  // namespace footwall::extract

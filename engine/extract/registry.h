@@ -1,0 +1,23 @@
+// The algorithms by name, for the command line, dialogs and messages. A new one is one file and one row.
+#pragma once
+#include <span>
+#include <string_view>
+
+namespace footwall::extract {
+
+struct Row {
+  std::string_view name;
+  bool built;
+  std::string_view help;
+};
+
+std::span<const Row> exchange_rows();   // auto, reduce, minimum; block, bounding, push are not built
+std::span<const Row> balance_rows();    // none; minimal, global, local, manhattan are not built
+std::span<const Row> voxelizer_rows();  // those of engine/voxelize/registry.h
+std::span<const Row> statistic_rows();  // count, mean, variance, min, max, discontinuity
+
+// The row of `text`, which may carry parameters ("block=8"); throws Error kUsage, listing the names, where
+// there is none or it is not built. `family` is the option's name, e.g. "exchange".
+const Row& find_row(std::span<const Row> rows, std::string_view family, std::string_view text);
+
+}  // namespace footwall::extract

@@ -1,0 +1,35 @@
+#include "engine/extract/registry.h"
+
+#include <gtest/gtest.h>
+
+#include "storage/base/error.h"
+
+namespace footwall::extract {
+namespace {
+
+TEST(Registry, FindsWhatIsBuilt) {
+  EXPECT_EQ(find_row(exchange_rows(), "exchange", "reduce").name, "reduce");
+  EXPECT_EQ(find_row(balance_rows(), "balance", "none").name, "none");
+  EXPECT_EQ(find_row(voxelizer_rows(), "voxelizer", "exact").name, "exact");
+}
+
+TEST(Registry, RefusesTheRestAsWrongUsageAndListsTheChoice) {
+  for (const char* name : {"block=8", "push", "sideways", "", "reduce=3"}) {
+    try {
+      find_row(exchange_rows(), "exchange", name);
+      ADD_FAILURE() << name;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kUsage);
+      EXPECT_NE(error.message().find("exchange"), std::string::npos);
+    }
+  }
+  try {
+    find_row(exchange_rows(), "exchange", "push");
+  } catch (const Error& error) {
+    EXPECT_NE(error.message().find("not built yet"), std::string::npos);
+    EXPECT_NE(error.hint().find("reduce"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace footwall::extract
