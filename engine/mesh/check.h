@@ -1,0 +1,15 @@
+// The invariants of a mesh, checked the slow and obvious way from its faces' vertices alone.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "engine/mesh/mesh.h"
+
+namespace footwall::mesh {
+
+// What is wrong, one line each, at most `limit` of them; empty for a sound mesh: records that point to each
+// other, every edge with one or two faces that run it in opposite directions, every vertex with a single fan
+// of faces, counts that agree, finite positions. Takes O(faces log faces).
+std::vector<std::string> problems_of(const Mesh& mesh, std::size_t limit = 20);
+
+}  // namespace footwall::mesh
