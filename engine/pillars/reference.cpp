@@ -1,0 +1,145 @@
+#include "engine/pillars/reference.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace footwall::pillars {
+namespace {
+
+struct Vector2 {
+  double x = 0, y = 0;
+};
+Vector2 operator-(Vector2 a, Vector2 b) {
+  return {a.x - b.x, a.y - b.y};
+}
+double cross(Vector2 a, Vector2 b) {
+  return a.x * b.y - a.y * b.x;
+}
+double dot(Vector2 a, Vector2 b) {
+  return a.x * b.x + a.y * b.y;
+}
+Vector2 flat(const ChartPoint& p) {
+  return {p.strike, p.dip};
+}
+
+// The bilinear piece between two rulings a0-b0 and a1-b1; counter-clockwise a0, b0, b1, a1.
+struct Piece {
+  ChartPoint a0, b0, b1, a1;
+
+  std::array<double, 4> corners() const {
+    const std::array<Vector2, 4> p{flat(a0), flat(b0), flat(b1), flat(a1)};
+    std::array<double, 4> turn;
+    for (std::size_t k = 0; k < 4; ++k)
+      turn[k] = cross(p[(k + 1) % 4] - p[k], p[(k + 2) % 4] - p[(k + 1) % 4]);
+    return turn;
+  }
+  // How far inside, negative outside: the smallest of the four edges' signed areas.
+  double inside(Vector2 q) const {
+    const std::array<Vector2, 4> p{flat(a0), flat(b0), flat(b1), flat(a1)};
+    double least = cross(p[1] - p[0], q - p[0]);
+    for (std::size_t k = 1; k < 4; ++k) least = std::min(least, cross(p[(k + 1) % 4] - p[k], q - p[k]));
+    return least;
+  }
+  double height(Vector2 q) const {
+    // The ruling through q: cross(q - a(u), b(u) - a(u)) = 0, a quadratic in u.
+    const Vector2 da = flat(a1) - flat(a0), d0 = flat(b0) - flat(a0);
+    const Vector2 dd = (flat(b1) - flat(a1)) - d0, e = q - flat(a0);
+    const double c = cross(e, d0), b = cross(e, dd) - cross(da, d0), a = -cross(da, dd);
+    const double u = root(a, b, c);
+    const Vector2 from{flat(a0).x + u * da.x, flat(a0).y + u * da.y};
+    const Vector2 ruling{d0.x + u * dd.x, d0.y + u * dd.y};
+    const double length2 = dot(ruling, ruling);
+    const double t = length2 > 0 ? std::clamp(dot(q - from, ruling) / length2, 0.0, 1.0) : 0;
+    const double ha = a0.height + u * (a1.height - a0.height), hb = b0.height + u * (b1.height - b0.height);
+    return ha + t * (hb - ha);
+  }
+
+  // The root of a u^2 + b u + c nearest to [0, 1], clamped into it.
+  static double root(double a, double b, double c) {
+    const double square = std::max(0.0, b * b - 4 * a * c);
+    const double q = -0.5 * (b + (b >= 0 ? std::sqrt(square) : -std::sqrt(square)));
+    const double first = a != 0 ? q / a : 0.5, second = q != 0 ? c / q : 0.5;
+    auto outside = [](double u) { return std::max({0.0, -u, u - 1}); };
+    const bool has_first = a != 0, has_second = q != 0;
+    if (has_first && (!has_second || outside(first) < outside(second))) return std::clamp(first, 0.0, 1.0);
+    return std::clamp(second, 0.0, 1.0);
+  }
+};
+
+class RuledSurface : public Reference {
+ public:
+  explicit RuledSurface(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {}
+
+  double height(double strike, double dip) override {
+    // Neighbouring questions fall into neighbouring pieces: search outwards from the last one.
+    const Vector2 q{strike, dip};
+    const std::size_t count = pieces_.size();
+    double best = pieces_[last_].inside(q);
+    std::size_t place = last_;
+    for (std::size_t step = 1; best < 0 && step < count; ++step) {
+      for (const bool up : {true, false}) {
+        if (up ? last_ + step >= count : step > last_) continue;
+        const std::size_t at = up ? last_ + step : last_ - step;
+        const double in = pieces_[at].inside(q);
+        if (in > best) best = in, place = at;
+      }
+    }
+    last_ = place;
+    return pieces_[place].height(q);
+  }
+
+ private:
+  std::vector<Piece> pieces_;
+  std::size_t last_ = 0;
+};
+
+class MeanValueSurface : public Reference {
+ public:
+  explicit MeanValueSurface(std::vector<std::array<ChartPoint, 2>> rim) : rim_(std::move(rim)) {}
+
+  double height(double strike, double dip) override {
+    double sum = 0, weight = 0;
+    for (const auto& [p, q] : rim_) {
+      const Vector2 a{p.strike - strike, p.dip - dip}, b{q.strike - strike, q.dip - dip};
+      const double ra = std::sqrt(dot(a, a)), rb = std::sqrt(dot(b, b));
+      if (ra < 1e-9) return p.height;
+      if (rb < 1e-9) return q.height;
+      const double facing = ra * rb + dot(a, b);
+      if (facing <= 1e-12 * ra * rb) return (rb * p.height + ra * q.height) / (ra + rb);  // on the edge
+      const double half = cross(a, b) / facing;
+      sum += half * (p.height / ra + q.height / rb);
+      weight += half * (1 / ra + 1 / rb);
+    }
+    return sum / weight;
+  }
+
+ private:
+  std::vector<std::array<ChartPoint, 2>> rim_;
+};
+
+}  // namespace
+
+std::unique_ptr<Reference> ruled_surface(const Course& a, const Course& b) {
+  std::vector<double> s(a.s);
+  s.insert(s.end(), b.s.begin(), b.s.end());
+  s.push_back(1);  // a single node has 0 alone
+  std::sort(s.begin(), s.end());
+  std::vector<double> rulings;
+  for (double each : s)
+    if (rulings.empty() || each - rulings.back() > 1e-12) rulings.push_back(each);
+  if (rulings.size() < 2) return nullptr;
+  std::vector<Piece> pieces;
+  for (std::size_t n = 0; n + 1 < rulings.size(); ++n) {
+    const Piece piece{a.at(rulings[n]), b.at(rulings[n]), b.at(rulings[n + 1]), a.at(rulings[n + 1])};
+    for (double turn : piece.corners())
+      if (!(turn >= -1e-12)) return nullptr;
+    pieces.push_back(piece);
+  }
+  return std::make_unique<RuledSurface>(std::move(pieces));
+}
+
+std::unique_ptr<Reference> mean_value_surface(std::vector<std::array<ChartPoint, 2>> rim) {
+  return std::make_unique<MeanValueSurface>(std::move(rim));
+}
+
+}  // namespace footwall::pillars
