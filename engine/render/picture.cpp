@@ -1,0 +1,95 @@
+#include "engine/render/picture.h"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <exception>
+
+#include "engine/render/overlay.h"
+#include "engine/render/shading.h"
+#include "storage/base/error.h"
+
+namespace footwall::render {
+namespace {
+
+// Odd, so that the middle sample of a pixel is its centre and the depth written is the picture's own.
+constexpr int kSamples = 3;
+constexpr int kBandRows = 24;  // of the finished picture: a band's samples stay in the second-level cache
+
+Rgba averaged(const std::array<Rgba, kSamples * kSamples>& samples) {
+  unsigned sums[3] = {0, 0, 0};
+  for (const Rgba c : samples) {
+    sums[0] += red(c);
+    sums[1] += green(c);
+    sums[2] += blue(c);
+  }
+  constexpr unsigned kCount = kSamples * kSamples;
+  return rgb((sums[0] + kCount / 2) / kCount, (sums[1] + kCount / 2) / kCount,
+             (sums[2] + kCount / 2) / kCount);
+}
+
+void draw_band(const PreparedScene& prepared, const Scene& scene, int first_row, int rows, Picture& picture) {
+  VisibilityBuffer window(picture.width * kSamples, picture.height * kSamples, first_row * kSamples,
+                          rows * kSamples);
+  prepared.rasterize_into(window);
+  for (int y = first_row; y < first_row + rows; ++y) {
+    const Rgba background = mixed(scene.background_top, scene.background_bottom, (y + 0.5) / picture.height);
+    for (int x = 0; x < picture.width; ++x) {
+      std::array<Rgba, kSamples * kSamples> samples{};
+      for (int n = 0; n < kSamples * kSamples; ++n) {
+        const int sx = x * kSamples + n % kSamples;
+        const int sy = y * kSamples + n / kSamples;
+        const PrimitiveId id = primitive_of(window.at(sx, sy));
+        samples[static_cast<std::size_t>(n)] =
+            id == kNoPrimitive ? background : prepared.colour_at(id, sx, sy);
+      }
+      const Rgba colour = averaged(samples);
+      const std::size_t pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x);
+      const std::uint8_t bytes[4] = {static_cast<std::uint8_t>(red(colour)),
+                                     static_cast<std::uint8_t>(green(colour)),
+                                     static_cast<std::uint8_t>(blue(colour)), 255};
+      std::copy(bytes, bytes + 4, picture.rgba.begin() + static_cast<std::ptrdiff_t>(4 * pixel));
+      picture.depth[pixel] = depth_of(window.at(x * kSamples + kSamples / 2, y * kSamples + kSamples / 2));
+    }
+  }
+}
+
+}  // namespace
+
+Picture render(const Scene& scene, const Camera& camera, int width, int height, int threads) {
+  if (width < 1 || height < 1 || width > kLargestPicture || height > kLargestPicture) {
+    throw Error(ErrorCode::kUsage, fmt::format("a picture of {} x {} pixels cannot be drawn", width, height),
+                fmt::format("give 1 to {} pixels each way", kLargestPicture));
+  }
+  const int workers = threads > 0 ? threads : omp_get_max_threads();
+  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  Picture picture{width, height, std::vector<std::uint8_t>(4 * pixels), std::vector<float>(pixels)};
+  const PreparedScene prepared(scene, camera, {width * kSamples, height * kSamples, kSamples}, workers);
+  std::exception_ptr failure;  // an exception must not leave a parallel region; memory can run out in there
+#pragma omp parallel for schedule(dynamic) num_threads(workers)
+  for (int first = 0; first < height; first += kBandRows) {
+    try {
+      draw_band(prepared, scene, first, std::min(kBandRows, height - first), picture);
+    } catch (...) {
+#pragma omp critical(footwall_render_failure)
+      failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+
+  Canvas canvas(width, height, picture.rgba);
+  const bool has_words = !scene.labels.empty() || !scene.bars.empty() || !scene.legend.empty() ||
+                         !scene.title.empty() || !scene.subtitle.empty() || scene.north_arrow;
+  const std::unique_ptr<Typeface> typeface = has_words ? Typeface::find() : nullptr;
+  if (typeface) {
+    draw_labels(canvas, *typeface, scene, camera, picture.depth);
+    draw_title(canvas, *typeface, scene);
+  }
+  if (scene.north_arrow) draw_north_arrow(canvas, typeface.get(), scene, camera);
+  draw_panels(canvas, typeface.get(), scene);
+  return picture;
+}
+
+}  // namespace footwall::render

@@ -1,0 +1,25 @@
+// A scene through a camera, as pixels.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "engine/render/camera.h"
+#include "engine/render/scene.h"
+
+namespace footwall::render {
+
+struct Picture {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgba;  // 4 * width * height, row 0 on top, opaque
+  std::vector<float> depth;        // width * height, OpenGL window depth at the pixel centres, 1 = background
+};
+
+// Draws with 3x3 samples per pixel, in bands of rows so that memory stays bounded; the pixels do not depend
+// on `threads` (0 = all). Without a font on the machine the picture has no text, and one warning is logged.
+// Throws Error kUsage for a size outside 1..kLargestPicture, kInvalid for a mesh that refers to vertices or
+// colours that are not there, or a section without its samples.
+Picture render(const Scene& scene, const Camera& camera, int width, int height, int threads);
+inline constexpr int kLargestPicture = 8192;
+
+}  // namespace footwall::render
