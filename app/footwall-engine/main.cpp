@@ -1,0 +1,70 @@
+// The MPI program: runs one batch job on all ranks. Exit 0 done, 1 failed, 2 wrong usage, 130 cancelled; a
+// failure is printed once.
+#include <signal.h>
+#include <sys/prctl.h>
+
+#include <CLI/CLI.hpp>
+
+#include "app/footwall-engine/batch_command.h"
+#include "engine/comm/environment.h"
+
+namespace {
+
+using footwall::Error;
+using footwall::ErrorCode;
+using footwall::comm::Communicator;
+
+int exit_code_of(ErrorCode code) {
+  if (code == ErrorCode::kUsage) return 2;
+  return code == ErrorCode::kCancelled ? 130 : 1;
+}
+
+// Leaves together: the first rank to exit with a code other than 0 makes mpirun kill the others, and rank 0
+// must have printed by then.
+int leave(const Communicator& world, const Error& error) {
+  if (world.rank() == 0) footwall::app::print_error(error);
+  MPI_Barrier(world.get());
+  return exit_code_of(error.code());
+}
+
+int run(const Communicator& world, int argc, char** argv) {
+  CLI::App app("The computing engine of Footwall; started by footwall under mpirun.");
+  app.require_subcommand(1);
+  std::string job;
+  app.add_subcommand("batch", "runs one job: reads JOB.json, writes part files and result.json")
+      ->add_option("JOB", job, "the job's JOB.json")
+      ->required();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = world.rank() == 0 ? app.exit(error) : 0;
+    MPI_Barrier(world.get());
+    return error.get_exit_code() == 0 ? code : 2;
+  }
+  footwall::app::batch(world, job);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // No rank outlives the launcher that started it.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  int code = 1;
+  try {
+    const footwall::comm::Environment environment(argc, argv);
+    const Communicator world(MPI_COMM_WORLD);
+    try {
+      code = run(world, argc, argv);
+    } catch (const footwall::comm::AgreedError& error) {
+      code = leave(world, error);
+    } catch (...) {
+      // This rank alone failed, in the middle of a communication: the others may be waiting for it.
+      footwall::app::print_error(footwall::comm::current_error());
+      MPI_Abort(MPI_COMM_WORLD, 1);
+    }
+  } catch (...) {
+    footwall::app::print_error(footwall::comm::current_error());
+  }
+  return code;
+}

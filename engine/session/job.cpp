@@ -1,0 +1,232 @@
+#include "engine/session/job.h"
+
+#include <nlohmann/json.hpp>
+
+#include "engine/session/faces_file.h"
+#include "storage/base/error.h"
+#include "storage/base/hash.h"
+#include "storage/base/partial_file.h"
+
+namespace footwall::session {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kVersion = 1;
+constexpr std::size_t kJsonLimit = std::size_t{64} << 20;
+constexpr std::size_t kFacesLimit = std::size_t{16} << 30;
+
+Error bad(const std::string& what) {
+  return Error(ErrorCode::kFormat, "JOB.json: " + what, "write the job again");
+}
+
+Json axis_to_json(const survey::LineAxis& axis) {
+  return {{"first", axis.first}, {"step", axis.step}, {"count", axis.count}};
+}
+
+Json geometry_to_json(const survey::Geometry& g) {
+  return {{"inlines", axis_to_json(g.inlines)},
+          {"crosslines", axis_to_json(g.crosslines)},
+          {"samples", g.samples},
+          {"z0", g.z0},
+          {"interval", g.interval},
+          {"domain", name_of(g.domain)},
+          {"vertical_unit", name_of(g.vertical_unit)},
+          {"horizontal_unit", g.horizontal_unit},
+          {"crs", g.crs},
+          {"map",
+           {{"origin_x", g.map.origin_x},
+            {"origin_y", g.map.origin_y},
+            {"per_inline_x", g.map.per_inline_x},
+            {"per_inline_y", g.map.per_inline_y},
+            {"per_crossline_x", g.map.per_crossline_x},
+            {"per_crossline_y", g.map.per_crossline_y}}}};
+}
+
+survey::LineAxis axis_from_json(const Json& json) {
+  return {json.at("first").get<std::int32_t>(), json.at("step").get<std::int32_t>(),
+          json.at("count").get<std::int64_t>()};
+}
+
+survey::Geometry geometry_from_json(const Json& json) {
+  survey::Geometry g;
+  g.inlines = axis_from_json(json.at("inlines"));
+  g.crosslines = axis_from_json(json.at("crosslines"));
+  json.at("samples").get_to(g.samples);
+  json.at("z0").get_to(g.z0);
+  json.at("interval").get_to(g.interval);
+  g.domain = survey::domain_from(json.at("domain").get<std::string>());
+  g.vertical_unit = survey::vertical_unit_from(json.at("vertical_unit").get<std::string>());
+  json.at("horizontal_unit").get_to(g.horizontal_unit);
+  json.at("crs").get_to(g.crs);
+  const Json& map = json.at("map");
+  map.at("origin_x").get_to(g.map.origin_x);
+  map.at("origin_y").get_to(g.map.origin_y);
+  map.at("per_inline_x").get_to(g.map.per_inline_x);
+  map.at("per_inline_y").get_to(g.map.per_inline_y);
+  map.at("per_crossline_x").get_to(g.map.per_crossline_x);
+  map.at("per_crossline_y").get_to(g.map.per_crossline_y);
+  g.validate();
+  return g;
+}
+
+Json optional_number(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json parsed(const std::string& text) {
+  Json json;
+  try {
+    json = Json::parse(text);
+  } catch (const Json::exception& error) {
+    throw bad(error.what());
+  }
+  if (!json.is_object() || !json.contains("footwall_job")) throw bad("this is not a job of Footwall");
+  const Json& version = json["footwall_job"];
+  if (!version.is_number_integer() || version.get<std::int64_t>() != kVersion) {
+    throw Error(ErrorCode::kUnsupported,
+                "the job has version " + version.dump() + ", this program reads version 1",
+                "use the same version of footwall to write and to run it");
+  }
+  return json;
+}
+
+std::filesystem::path beside(const std::filesystem::path& folder, const Json& name) {
+  return (folder / name.get<std::string>()).lexically_normal();
+}
+
+// The job without its faces; counts gets how many faces each fault has.
+Job header_from_json(const Json& json, const std::filesystem::path& folder,
+                     std::vector<std::size_t>& counts) {
+  Job job;
+  job.volume = beside(folder, json.at("volume").at("path"));
+  json.at("volume").at("checksum").get_to(job.volume_checksum);
+  if (!job.volume_checksum.empty()) hash_from_hex(job.volume_checksum);
+  job.geometry = geometry_from_json(json.at("geometry"));
+  for (const Json& fault : json.at("faults")) {
+    job.faults.push_back({fault.at("id").get<std::int64_t>(), fault.at("name").get<std::string>(), {}});
+    counts.push_back(fault.at("faces").get<std::size_t>());
+  }
+  const Json& options = json.at("options");
+  options.at("exchange").get_to(job.options.exchange);
+  options.at("balance").get_to(job.options.balance);
+  options.at("voxelizer").get_to(job.options.voxelizer);
+  options.at("threads").get_to(job.options.threads);
+  options.at("compute").get_to(job.options.compute);
+  if (!options.at("velocity").is_null()) job.velocity = options.at("velocity").get<double>();
+  if (job.velocity && !(*job.velocity > 0)) throw bad("the velocity must be positive");
+  job.output = beside(folder, json.at("output"));
+  return job;
+}
+
+}  // namespace
+
+void write_job(const Job& job, const std::filesystem::path& path) {
+  std::vector<extract::Face> faces;
+  Json faults = Json::array();
+  for (const JobFault& fault : job.faults) {
+    faults.push_back({{"id", fault.id}, {"name", fault.name}, {"faces", fault.faces.size()}});
+    for (const extract::Face& face : fault.faces) {
+      if (face.fault != fault.id) {
+        throw Error(ErrorCode::kInvalid, "a face of fault " + std::to_string(face.fault) +
+                                             " stands under fault '" + fault.name + "'");
+      }
+      faces.push_back(face);
+    }
+  }
+  const std::string bytes = faces_to_bytes(faces);
+  std::filesystem::path faces_path = path;
+  faces_path.replace_extension(".faces");
+  const Json json{{"footwall_job", kVersion},
+                  {"volume", {{"path", job.volume.string()}, {"checksum", job.volume_checksum}}},
+                  {"geometry", geometry_to_json(job.geometry)},
+                  {"faces",
+                   {{"path", faces_path.filename().string()},
+                    {"count", faces.size()},
+                    {"hash", to_hex(hash64(std::as_bytes(std::span(bytes))))}}},
+                  {"faults", faults},
+                  {"options",
+                   {{"exchange", job.options.exchange},
+                    {"balance", job.options.balance},
+                    {"voxelizer", job.options.voxelizer},
+                    {"threads", job.options.threads},
+                    {"compute", job.options.compute},
+                    {"velocity", optional_number(job.velocity)}}},
+                  {"output", job.output.string()}};
+  write_whole_file(faces_path, bytes);
+  write_whole_file(path, json.dump(1) + "\n");
+}
+
+JobFiles read_job_files(const std::filesystem::path& path) {
+  JobFiles files;
+  files.json = read_whole_file(path, kJsonLimit);
+  const Json json = parsed(files.json);
+  try {
+    files.faces = read_whole_file(
+        beside(std::filesystem::absolute(path).parent_path(), json.at("faces").at("path")), kFacesLimit);
+  } catch (const Json::exception& error) {
+    throw bad(error.what());
+  }
+  return files;
+}
+
+Job parse_job(const JobFiles& files, const std::filesystem::path& folder) {
+  const Json json = parsed(files.json);
+  try {
+    std::vector<std::size_t> counts;
+    Job job = header_from_json(json, folder, counts);
+    if (hash64(std::as_bytes(std::span(files.faces))) != hash_from_hex(json.at("faces").at("hash"))) {
+      throw Error(ErrorCode::kCorrupt, "the faces beside JOB.json are not those that it was written with",
+                  "write the job again");
+    }
+    const std::vector<extract::Face> faces = faces_from_bytes(files.faces);
+    std::size_t next = 0;
+    for (std::size_t n = 0; n < counts.size(); ++n) {
+      JobFault& fault = job.faults[n];
+      if (counts[n] > faces.size() - next) throw bad("more faces are listed than there are");
+      const auto first = faces.begin() + static_cast<std::ptrdiff_t>(next);
+      fault.faces.assign(first, first + static_cast<std::ptrdiff_t>(counts[n]));
+      next += counts[n];
+      for (const extract::Face& face : fault.faces) {
+        if (face.fault != fault.id) throw bad("a face is not of the fault that it is listed under");
+      }
+      for (std::size_t other = 0; other < n; ++other) {
+        if (job.faults[other].id == fault.id)
+          throw bad("fault " + std::to_string(fault.id) + " is listed twice");
+      }
+    }
+    if (next != faces.size()) throw bad("there are more faces than are listed");
+    return job;
+  } catch (const Json::exception& error) {
+    throw bad(error.what());
+  }
+}
+
+Job read_job(const std::filesystem::path& path) {
+  return parse_job(read_job_files(path), std::filesystem::absolute(path).parent_path());
+}
+
+std::filesystem::path output_of(const std::filesystem::path& job_path) {
+  const Json json = parsed(read_whole_file(job_path, kJsonLimit));
+  try {
+    return beside(std::filesystem::absolute(job_path).parent_path(), json.at("output"));
+  } catch (const Json::exception& error) {
+    throw bad(error.what());
+  }
+}
+
+std::uint64_t part_hash(const Job& job, const JobFault& fault) {
+  const Json settings{{"version", kVersion},
+                      {"volume", job.volume_checksum},
+                      {"geometry", geometry_to_json(job.geometry)},
+                      {"voxelizer", job.options.voxelizer},
+                      {"compute", job.options.compute},
+                      {"velocity", optional_number(job.velocity)}};
+  Hasher hasher;
+  for (const std::string& bytes : {settings.dump(), faces_to_bytes(fault.faces)}) {
+    hasher.add(std::as_bytes(std::span(bytes)));
+  }
+  return hasher.value();
+}
+
+}  // namespace footwall::session

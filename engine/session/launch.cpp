@@ -1,0 +1,192 @@
+#include "engine/session/launch.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <deque>
+#include <nlohmann/json.hpp>
+
+#include "engine/session/child.h"
+#include "engine/session/job.h"
+#include "engine/session/private_folder.h"
+#include "storage/base/error.h"
+#include "storage/base/log.h"
+#include "storage/base/partial_file.h"
+#include "storage/base/text.h"
+
+namespace footwall::session {
+namespace {
+
+using Json = nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kResultLimit = std::size_t{256} << 20;
+constexpr std::size_t kKeptLines = 12;
+
+std::filesystem::path engine_beside_us() {
+  std::error_code failure;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failure);
+  if (failure) throw Error(ErrorCode::kEngine, "cannot tell where this program is", "name the engine's path");
+  return self.parent_path() / "footwall-engine";
+}
+
+std::string replaced(std::string word, const std::string& name, int value) {
+  for (std::size_t at = word.find(name); at != std::string::npos; at = word.find(name, at)) {
+    word.replace(at, name.size(), std::to_string(value));
+  }
+  return word;
+}
+
+std::string open_mpi_launcher(int ranks, int threads, const std::filesystem::path& folder) {
+  // Without binding, threads of a rank may use all of its cores. The single-copy path is the slower one.
+  // Slots are counted in cores, but a rank may well run on a hardware thread: hence --oversubscribe, always;
+  // ranks that share a core must give way while they wait.
+  std::string words =
+      "mpirun -n {ranks} --bind-to none --oversubscribe --mca btl_vader_single_copy_mechanism none";
+  words += ranks * threads > usable_cores() ? " --mca mpi_yield_when_idle 1" : " --mca mpi_yield_when_idle 0";
+  if (!folder.empty()) {
+    words += " --mca orte_tmpdir_base " + folder.string() + " --mca btl_vader_backing_directory " +
+             folder.string();
+  }
+  return words;
+}
+
+std::vector<std::string> command_in(const LaunchOptions& options, const std::filesystem::path& job,
+                                    const std::filesystem::path& folder) {
+  const int ranks = options.ranks > 0 ? options.ranks : default_ranks();
+  const char* custom = std::getenv("FOOTWALL_LAUNCHER");
+  const std::string launcher =
+      custom != nullptr && *custom != '\0' ? custom : open_mpi_launcher(ranks, options.threads, folder);
+  std::vector<std::string> command;
+  for (const std::string_view word : text::words(launcher)) {
+    command.push_back(replaced(replaced(std::string(word), "{ranks}", ranks), "{threads}", options.threads));
+  }
+  command.push_back((options.engine.empty() ? engine_beside_us() : options.engine).string());
+  command.insert(command.end(), {"batch", std::filesystem::absolute(job).string()});
+  return command;
+}
+
+std::vector<std::string> settings_of() {
+  if (geteuid() != 0) return {};
+  return {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
+}
+
+std::string how_it_ended(int status) {
+  // mpirun ends with 128 + n where a rank was killed by signal n.
+  int signal = 0;
+  if (WIFSIGNALED(status)) signal = WTERMSIG(status);
+  if (WIFEXITED(status) && WEXITSTATUS(status) > 128) signal = WEXITSTATUS(status) - 128;
+  if (signal > 0 && signal < 65) {
+    return "was killed by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
+  }
+  return "ended with exit status " + std::to_string(WIFEXITED(status) ? WEXITSTATUS(status) : -1);
+}
+
+// What the engine says on its output, line by line.
+class Listener {
+ public:
+  explicit Listener(const JobContext& job) : job_(job) {}
+
+  void line(const std::string& text) {
+    // Where mpirun prints first, its words may stand before a rank's line.
+    const Json json = text.front() == '{' ? Json::parse(text, nullptr, false) : Json();
+    if (json.is_object() && json.contains("progress")) {
+      progress(json["progress"]);
+    } else if (json.is_object() && json.contains("error") && json["error"].is_object()) {
+      const Json& error = json["error"];
+      if (!error_) {
+        error_.emplace(error_code_from(error.value("code", "internal")), error.value("message", "unknown"),
+                       error.value("hint", ""));
+      }
+    } else {
+      if (last_.size() == kKeptLines) last_.pop_front();
+      last_.push_back(text);
+    }
+  }
+
+  const std::optional<Error>& error() const { return error_; }
+  std::string last_words() const {
+    std::string words;
+    for (const std::string& each : last_) words += (words.empty() ? "" : " | ") + each;
+    return words;
+  }
+
+ private:
+  void progress(const Json& json) const {
+    if (!json.is_object() || job_.cancelled()) return;
+    try {
+      const std::string phase = json.value("phase", "");
+      job_.report(json.value("fraction", 0.0), phase, json.value("amounts", ""));
+    } catch (const Error& error) {
+      // The cancel is passed on by the loop that reads.
+      if (error.code() != ErrorCode::kCancelled) throw;
+    } catch (const Json::exception&) {
+      log::warn("the engine sent a line of progress that cannot be read");
+    }
+  }
+
+  const JobContext& job_;
+  std::optional<Error> error_;
+  std::deque<std::string> last_;
+};
+
+// Asks the ranks to stop, then mpirun, then kills.
+class Stopper {
+ public:
+  void step(const Child& child) {
+    const auto now = Clock::now();
+    if (stage_ == 0) {
+      // mpirun passes SIGUSR1 on to the ranks, who agree to cancel and leave in order.
+      child.signal(SIGUSR1);
+    } else if (now < next_) {
+      return;
+    } else if (stage_ == 1) {
+      child.signal(SIGTERM);
+    } else {
+      child.kill_group();
+    }
+    ++stage_;
+    next_ = now + std::chrono::seconds(5);
+  }
+
+ private:
+  int stage_ = 0;
+  Clock::time_point next_;
+};
+
+}  // namespace
+
+std::vector<std::string> launch_command(const LaunchOptions& options, const std::filesystem::path& job) {
+  return command_in(options, job, {});
+}
+
+std::string run_engine(const LaunchOptions& options, const std::filesystem::path& job_path,
+                       const JobContext& job) {
+  job.check();
+  const std::filesystem::path result = output_of(job_path) / "result.json";
+  std::error_code ignored;
+  std::filesystem::remove(result, ignored);  // an older one must not be taken for this run's
+  const PrivateFolder folder(home_in_memory());
+  Child child(command_in(options, job_path, folder.path()), settings_of());
+  Listener listener(job);
+  Stopper stopper;
+  while (child.read_lines(100, [&](const std::string& line) { listener.line(line); })) {
+    if (job.cancelled()) stopper.step(child);
+  }
+  const int status = child.wait();
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+    if (std::filesystem::exists(result)) return read_whole_file(result, kResultLimit);
+    throw Error(ErrorCode::kEngine, "the engine ended without a result", listener.last_words());
+  }
+  job.check();
+  if (listener.error()) throw *listener.error();
+  const std::string words = listener.last_words();
+  throw Error(ErrorCode::kEngine, "the engine " + how_it_ended(status),
+              words.empty() ? "run the job again, or with fewer ranks" : "its last words: " + words);
+}
+
+}  // namespace footwall::session

@@ -1,0 +1,33 @@
+// The results of one fault: an HDF5 file in the job's output folder, written under a temporary name and
+// renamed when whole. Layout, version 1: attributes format = "footwall part", version, fault, name, part_hash
+// (16 hex digits), check (hash64 of the columns as 16 hex digits); one dataset of `faces` entries per column:
+// owner int64, n int32, vertices int32 [faces][3][3] (lattice i, j, k), count int64, nulls int64, outside
+// uint8, and float64 mean, variance, min, max, discontinuity, area, area_voxels, dip, dip_azimuth, normal_i,
+// normal_j, normal_k. NaN = undefined.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/extract/face.h"
+#include "engine/extract/face_geometry.h"
+
+namespace footwall::session {
+
+struct Part {
+  std::int64_t fault = 0;
+  std::string name;
+  std::uint64_t hash = 0;  // part_hash() of the job
+  std::vector<extract::Face> faces;
+  std::vector<extract::FaceStatistics> statistics;  // one per face
+  std::vector<extract::FaceGeometry> geometry;      // one per face
+};
+
+// "fault-<id>.part.h5"
+std::filesystem::path part_path(const std::filesystem::path& output, std::int64_t fault);
+// Throws kIo.
+void write_part(const Part& part, const std::filesystem::path& path);
+// Throws kNotFound, kFormat, kCorrupt (the check differs).
+Part read_part(const std::filesystem::path& path);
+
+}  // namespace footwall::session
