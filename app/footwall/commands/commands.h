@@ -1,0 +1,22 @@
+// One function per command, each in the file of its name.
+#pragma once
+#include "app/footwall/console/program.h"
+
+namespace footwall::commands {
+
+void add_new(console::Program& program);
+void add_import(console::Program& program);
+void add_info(console::Program& program);
+void add_faults(console::Program& program);
+void add_edit(console::Program& program);
+void add_history(console::Program& program);  // undo, redo, history
+void add_interpolate(console::Program& program);
+void add_triangulate(console::Program& program);
+void add_extract(console::Program& program);
+void add_faces(console::Program& program);
+void add_export(console::Program& program);
+void add_render(console::Program& program);
+void add_relink(console::Program& program);
+void add_bench(console::Program& program);
+
+}  // namespace footwall::commands

@@ -1,0 +1,106 @@
+// footwall faces: per-face statistics of a run, as CSV or ranked.
+#include <fmt/format.h>
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include "app/footwall/commands/commands.h"
+#include "app/footwall/commands/options.h"
+#include "engine/tasks/face_tables.h"
+#include "storage/base/log.h"
+#include "storage/formats/faces_csv.h"
+
+namespace footwall::commands {
+namespace {
+
+struct Options {
+  std::string project, fault, csv, coordinates = "world", lowest, highest;
+  std::optional<std::int64_t> run;
+  std::size_t top = 10;
+};
+
+console::Json ranked_json(const tasks::FaceTables& faces, const std::vector<tasks::RankedFace>& ranked) {
+  console::Json rows = console::Json::array();
+  for (const tasks::RankedFace& one : ranked) {
+    const formats::MeshTable& table = faces.tables[one.table];
+    console::Json row = {{"fault", table.fault}, {"face", table.face_ids[one.face]}};
+    for (const formats::FaceStatistic& statistic : table.statistics)
+      row[statistic.name] = statistic.values[one.face];
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::string ranked_text(const tasks::FaceTables& faces, const std::vector<tasks::RankedFace>& ranked) {
+  const std::vector<const char*> columns{"discontinuity", "variance", "mean", "count", "dip"};
+  std::string text = fmt::format("{:<16} {:<24}", "fault", "face");
+  for (const char* column : columns) text += fmt::format(" {:>13}", column);
+  text += "\n";
+  for (const tasks::RankedFace& one : ranked) {
+    const formats::MeshTable& table = faces.tables[one.table];
+    text += fmt::format("{:<16} {:<24}", table.fault, table.face_ids[one.face]);
+    for (const char* column : columns) {
+      const double value = tasks::values_of(table, column)[one.face];
+      text += std::isnan(value) ? fmt::format(" {:>13}", "-") : fmt::format(" {:>13.5g}", value);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+console::Output run(const Options& options) {
+  const project::Project project = open_project(options.project, project::OpenMode::kRead);
+  const auto coordinates =
+      options.coordinates == "index" ? tasks::Coordinates::kIndex : tasks::Coordinates::kWorld;
+  const tasks::FaceTables faces = tasks::face_tables(project, options.fault, options.run, coordinates);
+  if (!faces.run)
+    throw Error(ErrorCode::kNotFound, "the project has no run yet", "footwall extract makes one");
+  for (const std::string& name : faces.stale) log::warn(name + " was edited since this run");
+  std::size_t count = 0;
+  for (const formats::MeshTable& table : faces.tables) count += table.triangles.size();
+
+  console::Output output;
+  output.json = {
+      {"run", faces.run->id}, {"volume", faces.run->volume}, {"count", count}, {"stale", faces.stale}};
+  output.text = fmt::format("run {}: {} faces of volume {}\n", faces.run->id, count, faces.run->volume);
+  if (!options.csv.empty()) {
+    formats::faces_csv::write(options.csv, faces.tables);
+    output.json["csv"] = options.csv;
+    output.text += "written to " + options.csv + "\n";
+  }
+  const bool lowest = !options.lowest.empty() || options.highest.empty();
+  const std::string& asked = lowest ? options.lowest : options.highest;
+  std::string statistic = asked;
+  if (statistic.empty() && options.csv.empty()) statistic = "discontinuity";
+  if (!statistic.empty()) {
+    const auto ranked = tasks::ranked_faces(faces, statistic, lowest, options.top);
+    output.json["faces"] = ranked_json(faces, ranked);
+    output.text += fmt::format("the {} faces of {} {} (of those with at least 30 samples)\n", ranked.size(),
+                               lowest ? "lowest" : "highest", statistic);
+    output.text += ranked_text(faces, ranked);
+  }
+  return output;
+}
+
+}  // namespace
+
+void add_faces(console::Program& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add(nullptr, "faces", "Per-face statistics of a run",
+                                  [options](console::Console&) { return run(*options); });
+  command->add_option("project", options->project, "The project, NAME.footwall")->required();
+  command->add_option("--fault", options->fault, "Only this fault (default: all)");
+  command->add_option("--run", options->run, "The run's number (default: the last)");
+  command->add_option("--csv", options->csv, "Write all faces to this file");
+  command
+      ->add_option("--coordinates", options->coordinates,
+                   "world: as picked; index: the rounded positions that were computed on, in voxels")
+      ->check(CLI::IsMember({"world", "index"}));
+  command->add_option("--lowest", options->lowest, "List the faces with the lowest values of this statistic");
+  command
+      ->add_option("--highest", options->highest, "List the faces with the highest values of this statistic")
+      ->excludes("--lowest");
+  command->add_option("--top", options->top, "How many of them (default 10)")->check(CLI::NonNegativeNumber);
+}
+
+}  // namespace footwall::commands

@@ -1,0 +1,113 @@
+// footwall info: what is in a project or a SEG-Y file, and whether it is whole.
+#include <fmt/format.h>
+#include <memory>
+
+#include "app/footwall/commands/commands.h"
+#include "app/footwall/commands/options.h"
+#include "engine/tasks/project_facts.h"
+#include "storage/formats/segy/segy_file.h"
+
+namespace footwall::commands {
+namespace {
+
+struct Options {
+  std::string file;
+  bool verify = false;
+};
+
+std::string lines_text(const console::Json& lines) {
+  return fmt::format("{} to {} by {} ({})", lines["first"].get<std::int64_t>(),
+                     lines["last"].get<std::int64_t>(), lines["step"].get<std::int64_t>(),
+                     lines["count"].get<std::int64_t>());
+}
+
+std::string survey_text(const console::Json& survey) {
+  if (survey.is_null()) return "no survey yet\n";
+  const auto unit = survey["vertical_unit"].get<std::string>();
+  return fmt::format(
+             "inlines    {}\ncrosslines {}\nsamples    {} from {} {} every {} {}, {}, z positive down\n",
+             lines_text(survey["inlines"]), lines_text(survey["crosslines"]),
+             survey["samples"].get<std::int64_t>(), survey["z0"].get<double>(), unit,
+             survey["interval"].get<double>(), unit, survey["domain"].get<std::string>()) +
+         fmt::format("CRS        {}\n",
+                     survey["crs"].is_null() ? "not stated" : survey["crs"].get<std::string>());
+}
+
+std::string facts_text(const console::Json& facts) {
+  std::string text = survey_text(facts["survey"]);
+  for (const console::Json& volume : facts["volumes"]) {
+    const auto value = [&](const char* key) {
+      return volume[key].is_null() ? std::string("-") : fmt::format("{:.6g}", volume[key].get<double>());
+    };
+    text += fmt::format(
+        "volume {}: {}x{}x{}, {} to {}, mean {}, standard deviation {}, {} nulls, {} live traces ({})\n",
+        volume["name"].get<std::string>(), volume["dims"][0].get<std::int64_t>(),
+        volume["dims"][1].get<std::int64_t>(), volume["dims"][2].get<std::int64_t>(), value("min"),
+        value("max"), value("mean"), value("stddev"), volume["null_count"].get<std::int64_t>(),
+        volume["live_traces"].get<std::int64_t>(), volume["source"].get<std::string>());
+  }
+  for (const console::Json& fault : facts["faults"]) {
+    text += fmt::format("fault {}: {} pillars, {} faces{}\n", fault["name"].get<std::string>(),
+                        fault["pillars"].get<std::int64_t>(), fault["faces"].get<std::int64_t>(),
+                        fault["stale"].get<bool>() ? " (to be triangulated)" : "");
+  }
+  for (const console::Json& surface : facts["truth"]) {
+    text += fmt::format("truth {}: {} faces\n", surface["name"].get<std::string>(),
+                        surface["faces"].get<std::int64_t>());
+  }
+  for (const console::Json& run : facts["runs"]) {
+    text += fmt::format("run {}: {}, volume {}, {}\n", run["run"].get<std::int64_t>(),
+                        run["name"].get<std::string>(), run["volume"].get<std::string>(),
+                        run["when"].get<std::string>());
+  }
+  for (const console::Json& file : facts["missing"]) {
+    text += fmt::format("missing: volume {} ({}: {}); footwall relink mends it\n",
+                        file["volume"].get<std::string>(), file["path"].get<std::string>(),
+                        file["reason"].get<std::string>());
+  }
+  for (const console::Json& line : facts["assumed"]) text += "assumed: " + line.get<std::string>() + "\n";
+  if (facts["verified"].get<bool>()) text += "every stored byte agrees with its checksum\n";
+  return text;
+}
+
+std::string segy_text(const console::Json& facts) {
+  std::string text;
+  for (const auto& [key, value] : facts.items()) {
+    if (value.is_array()) continue;
+    text += fmt::format("{:14} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  for (const char* list : {"assumed", "warnings"}) {
+    for (const console::Json& line : facts[list])
+      text += fmt::format("{}: {}\n", list, line.get<std::string>());
+  }
+  return text;
+}
+
+console::Output run(const Options& options, const console::Console& console) {
+  if (formats::segy::looks_like_segy(options.file)) {
+    // Only headers are reported, which read the same whatever z means.
+    const auto file = formats::segy::SegyFile::scan(options.file, {}, console.job());
+    console::Output output;
+    output.json = segy_json(file.report(), file.geometry());
+    output.text = segy_text(output.json);
+    return output;
+  }
+  const project::Project project = open_project(options.file, project::OpenMode::kRead);
+  console::Output output;
+  output.json = tasks::project_facts(project, options.verify, console.job());
+  output.text = facts_text(output.json);
+  return output;
+}
+
+}  // namespace
+
+void add_info(console::Program& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add(nullptr, "info", "Tell what is in a project or a SEG-Y file, and whether it is whole",
+                  [options](console::Console& console) { return run(*options, console); });
+  command->add_option("file", options->file, "A project or a SEG-Y file")->required();
+  command->add_flag("--verify", options->verify, "Read every volume whole and check every checksum");
+}
+
+}  // namespace footwall::commands

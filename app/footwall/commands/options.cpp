@@ -1,0 +1,192 @@
+#include "app/footwall/commands/options.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/tasks/triangulate.h"
+#include "storage/base/log.h"
+#include "storage/base/text.h"
+
+namespace footwall::commands {
+namespace {
+
+Error wrong(const std::string& option, const std::string& text, const std::string& form) {
+  return {ErrorCode::kUsage, fmt::format("{} '{}' cannot be read", option, text), "write it as " + form};
+}
+
+}  // namespace
+
+std::array<std::int64_t, 3> dims_from(const std::string& text, const std::string& option) {
+  // 256x256x128 and 256,256,128 mean the same.
+  const auto parts = text::split(text, text.find(',') == std::string::npos ? 'x' : ',');
+  std::array<std::int64_t, 3> dims{};
+  if (parts.size() != 3) throw wrong(option, text, "inlines x crosslines x samples, e.g. 256x256x256");
+  for (std::size_t n = 0; n < 3; ++n) {
+    const auto number = text::integer(parts[n]);
+    if (!number || *number < 1) throw wrong(option, text, "inlines x crosslines x samples, e.g. 256x256x256");
+    dims[n] = *number;
+  }
+  return dims;
+}
+
+std::array<int, 2> picture_size_from(const std::string& text) {
+  constexpr std::int64_t kMost = 16384;
+  const auto parts = text::split(text, 'x');
+  const auto width = parts.size() == 2 ? text::integer(parts[0]) : std::nullopt;
+  const auto height = parts.size() == 2 ? text::integer(parts[1]) : std::nullopt;
+  if (!width || !height || *width < 16 || *height < 16 || *width > kMost || *height > kMost) {
+    throw wrong("--size", text, "width x height in pixels, 16 to 16384 each, e.g. 1600x1000");
+  }
+  return {static_cast<int>(*width), static_cast<int>(*height)};
+}
+
+std::array<double, 2> range_from(const std::string& text, const std::string& option) {
+  const auto parts = text::split(text, ':');
+  const auto lo = parts.size() == 2 ? text::number(parts[0]) : std::nullopt;
+  const auto hi = parts.size() == 2 ? text::number(parts[1]) : std::nullopt;
+  if (!lo || !hi || !(*lo < *hi)) throw wrong(option, text, "low:high, e.g. 0:2.5");
+  return {*lo, *hi};
+}
+
+project::Project open_project(const std::string& path, project::OpenMode mode) {
+  project::Project project = project::Project::open(path, mode);
+  for (const std::string& notice : project.notices()) log::info(notice);
+  if (mode == project::OpenMode::kWrite) tasks::follow_parents(project);
+  return project;
+}
+
+void VolumeOptions::add_to(CLI::App& command) {
+  command.add_option("--domain", domain, "What z is: time or depth (SEG-Y and raw files cannot tell)");
+  command.add_option("--vertical-unit", vertical_unit, "Unit of z: ms, m or ft");
+  command.add_option("--crs", crs, "Coordinate reference system of X and Y, as text");
+  command.add_option("--interval", interval,
+                     "Sample interval in the vertical unit, where the file's is wrong or not there");
+  command.add_option("--inline-byte", inline_byte,
+                     "SEG-Y: trace header byte of the inline number (default 189)");
+  command.add_option("--crossline-byte", crossline_byte,
+                     "SEG-Y: trace header byte of the crossline number (default 193)");
+  command.add_option("--x-byte", x_byte, "SEG-Y: trace header byte of X (default 181)");
+  command.add_option("--y-byte", y_byte, "SEG-Y: trace header byte of Y (default 185)");
+  command.add_option("--format", format, "SEG-Y: sample format code, where the file's is wrong");
+  command.add_option("--endian", endian, "SEG-Y: byte order, big or little, where it cannot be told")
+      ->check(CLI::IsMember({"big", "little"}));
+  command.add_option("--dims", dims, "Raw: inlines x crosslines x samples, e.g. 256x256x128");
+  command.add_option(
+      "--axes", axes,
+      "Raw: axes from the slowest to the fastest; i inline, j crossline, k sample (default ijk)");
+  command.add_option("--null", null_value, "Raw: the value that stands for 'no value' (NaN always does)");
+}
+
+survey::Domain VolumeOptions::required_domain() const {
+  if (!domain) {
+    throw Error(ErrorCode::kUsage, "--domain is missing: the file cannot tell whether z is time or depth",
+                "add --domain time or --domain depth");
+  }
+  return survey::domain_from(*domain);
+}
+
+survey::VerticalUnit VolumeOptions::required_unit() const {
+  if (!vertical_unit) {
+    throw Error(ErrorCode::kUsage, "--vertical-unit is missing: the file cannot tell the unit of z",
+                "add --vertical-unit ms, m or ft");
+  }
+  return survey::vertical_unit_from(*vertical_unit);
+}
+
+void VolumeOptions::check_samples() const {
+  const survey::Domain chosen = required_domain();
+  const survey::VerticalUnit unit = required_unit();
+  if ((chosen == survey::Domain::kTime) != (unit == survey::VerticalUnit::kMillisecond)) {
+    throw Error(ErrorCode::kUsage,
+                fmt::format("--domain {} does not go with --vertical-unit {}", *domain, *vertical_unit),
+                "time is in ms, depth in m or ft");
+  }
+  if (interval && !(*interval > 0 && std::isfinite(*interval))) {
+    throw Error(ErrorCode::kUsage, fmt::format("--interval {} is no sample interval", *interval),
+                "give a number above 0, in the vertical unit");
+  }
+}
+
+formats::segy::Options VolumeOptions::segy() const {
+  check_samples();
+  formats::segy::Options options;
+  options.domain = required_domain();
+  options.vertical_unit = required_unit();
+  options.inline_byte = inline_byte;
+  options.crossline_byte = crossline_byte;
+  options.x_byte = x_byte;
+  options.y_byte = y_byte;
+  options.format = format;
+  options.interval = interval;
+  options.crs = crs;
+  if (endian)
+    options.endian = *endian == "big" ? formats::segy::Endian::kBig : formats::segy::Endian::kLittle;
+  return options;
+}
+
+tasks::RawOptions VolumeOptions::raw() const {
+  if (dims.empty()) {
+    throw Error(ErrorCode::kUsage, "--dims is missing: a raw file cannot tell its size",
+                "add --dims inlines x crosslines x samples");
+  }
+  return {dims_from(dims, "--dims"), axes, null_value};
+}
+
+survey::Geometry VolumeOptions::raw_geometry() const {
+  if (!interval) {
+    throw Error(ErrorCode::kUsage, "--interval is missing: a raw file cannot tell its sample interval",
+                "add --interval in the vertical unit, e.g. 4");
+  }
+  check_samples();
+  survey::Geometry geometry =
+      tasks::plain_geometry(raw().dims, required_domain(), required_unit(), *interval);
+  geometry.crs = crs;
+  return geometry;
+}
+
+console::Json segy_json(const formats::segy::Report& report, const survey::Geometry& geometry) {
+  const auto lines = [](const survey::LineAxis& axis) {
+    return console::Json{
+        {"first", axis.first}, {"last", axis.last()}, {"step", axis.step}, {"count", axis.count}};
+  };
+  return {{"format", report.format},
+          {"format_name", report.format_name},
+          {"endian", formats::segy::name_of(report.endian)},
+          {"revision", fmt::format("{}.{}", report.revision_major, report.revision_minor)},
+          {"traces", report.traces},
+          {"samples", report.samples},
+          {"interval_us", report.interval_us},
+          {"inlines", lines(geometry.inlines)},
+          {"crosslines", lines(geometry.crosslines)},
+          {"live_traces", report.live_traces},
+          {"dead_traces", report.dead_traces},
+          {"duplicates", report.duplicates},
+          {"missing_bins", report.missing_bins},
+          {"fit_residual", report.residual},
+          {"right_handed", report.right_handed},
+          {"assumed", geometry.assumed},
+          {"warnings", report.warnings}};
+}
+
+console::Output volume_output(const project::VolumeRecord& volume, const survey::Geometry& survey) {
+  const bool any = volume.null_count < volume.dims[0] * volume.dims[1] * volume.dims[2];
+  console::Output output;
+  output.json = {{"volume", volume.name},
+                 {"dims", volume.dims},
+                 {"min", any ? console::Json(volume.min) : console::Json()},
+                 {"max", any ? console::Json(volume.max) : console::Json()},
+                 {"live_traces", volume.live_traces},
+                 {"null_count", volume.null_count},
+                 {"checksum", volume.checksum},
+                 {"assumed", survey.assumed}};
+  output.text = fmt::format(
+      "volume {}: {} inlines x {} crosslines x {} samples, {}, {} live traces\n", volume.name, volume.dims[0],
+      volume.dims[1], volume.dims[2],
+      any ? fmt::format("amplitudes {:.6g} to {:.6g}", volume.min, volume.max) : "every sample null",
+      volume.live_traces);
+  for (const std::string& assumed : survey.assumed) output.text += "assumed: " + assumed + "\n";
+  return output;
+}
+
+}  // namespace footwall::commands

@@ -1,0 +1,52 @@
+// Options that several commands share.
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+
+#include "app/footwall/console/program.h"
+#include "engine/tasks/volume_sources.h"
+#include "storage/project/project.h"
+
+namespace footwall::commands {
+
+// "256x256x128" or "1600x1000"; throws Error kUsage naming the option.
+std::array<std::int64_t, 3> dims_from(const std::string& text, const std::string& option);
+std::array<int, 2> picture_size_from(const std::string& text);
+// "lo:hi"
+std::array<double, 2> range_from(const std::string& text, const std::string& option);
+
+// Opens for reading or writing; notices go to the log, interpolated pillars follow their parents.
+project::Project open_project(const std::string& path, project::OpenMode mode);
+
+// How a volume's file is to be read: what `new --segy|--raw` and `import volume` have in common.
+struct VolumeOptions {
+  std::optional<std::string> domain, vertical_unit;
+  std::optional<int> inline_byte, crossline_byte, x_byte, y_byte, format;
+  std::optional<double> interval;
+  std::optional<std::string> endian;
+  std::string crs;
+  std::string dims;
+  std::string axes = "ijk";
+  std::optional<float> null_value;
+
+  void add_to(CLI::App& command);
+  // Throws kUsage, naming the option, where the domain or unit is not given.
+  formats::segy::Options segy() const;
+  tasks::RawOptions raw() const;
+  // For a raw file in a project without a survey.
+  survey::Geometry raw_geometry() const;
+
+ private:
+  survey::Domain required_domain() const;
+  survey::VerticalUnit required_unit() const;
+  // Throws kUsage where domain, unit and interval cannot belong together.
+  void check_samples() const;
+};
+
+// "SEG-Y: 414 traces of 75 samples, ..." and its warnings, for people and for JSON.
+console::Json segy_json(const formats::segy::Report& report, const survey::Geometry& geometry);
+// The volume that was brought in, in words and in JSON.
+console::Output volume_output(const project::VolumeRecord& volume, const survey::Geometry& survey);
+
+}  // namespace footwall::commands

@@ -1,0 +1,69 @@
+// footwall render: a picture by the engine's own rasterizer.
+#include <fmt/format.h>
+#include <memory>
+
+#include "app/footwall/commands/commands.h"
+#include "app/footwall/commands/options.h"
+#include "engine/tasks/render_faults.h"
+#include "storage/base/log.h"
+
+namespace footwall::commands {
+namespace {
+
+struct Options {
+  std::string project, out, size = "1600x1000", range;
+  bool faults = false;
+  tasks::RenderOptions how;
+};
+
+console::Output run(Options& options, const console::Console& console) {
+  if (!options.faults && options.how.sections.empty()) {
+    throw Error(ErrorCode::kUsage, "nothing to draw", "add --faults, --section, or both");
+  }
+  const auto [width, height] = picture_size_from(options.size);
+  options.how.faults = options.faults;
+  options.how.width = width;
+  options.how.height = height;
+  if (!options.range.empty()) options.how.range = range_from(options.range, "--range");
+  const project::Project project = open_project(options.project, project::OpenMode::kRead);
+  const tasks::Rendered done = tasks::render_faults(project, options.how, options.out, console.job());
+  for (const std::string& notice : done.notices) log::warn(notice);
+  return {{{"out", options.out}, {"size", {width, height}}, {"faces", done.faces}, {"notices", done.notices}},
+          fmt::format("written {}: {} faces, {} x {} pixels", options.out, done.faces, width, height)};
+}
+
+}  // namespace
+
+void add_render(console::Program& program) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add(nullptr, "render", "Draw faults coloured by a statistic, and sections",
+                                  [options](console::Console& console) { return run(*options, console); });
+  tasks::RenderOptions& how = options->how;
+  command->add_option("project", options->project, "The project, NAME.footwall")->required();
+  command->add_option("--out", options->out, "The PNG file to write")->required();
+  command->add_flag("--faults", options->faults, "Draw the fault meshes");
+  command->add_option("--section", how.sections,
+                      "inline=N, crossline=N or z=VALUE; N may be first, middle or last; may be repeated");
+  command->add_option("--statistic", how.statistic, "What colours the faults (default variance)");
+  command->add_option("--run", how.run, "Statistics of this run (default: the last)");
+  command->add_option("--volume", how.volume, "The volume of the sections (default: the first)");
+  command->add_option("--range", options->range,
+                      "Values at the ends of the colour bar, low:high (default: 2nd to 98th percentile)");
+  command->add_option("--colours", how.colours,
+                      "Colour map: viridis, cividis, grey, red-white-blue, seismic");
+  command->add_option("--size", options->size, "Pixels (default 1600x1000)");
+  command->add_option(
+      "--azimuth", how.azimuth,
+      "Direction looked in, degrees clockwise from north (default: that of twelve, 30, 45 and "
+      "60 degrees to the survey's lines, which shows most of the faults and sections)");
+  command->add_option("--elevation", how.elevation, "Degrees above the horizon (default 25)");
+  command->add_option("--zoom", how.zoom, "1 fits the survey's box (default 1)");
+  command->add_option(
+      "--exaggeration", how.exaggeration,
+      "Vertical exaggeration (default: a round one that makes the box about 0.6 as high as long)");
+  command->add_option("--velocity", how.velocity,
+                      "m/s, for heights in a time survey (default: 1 ms is drawn as 1 m)");
+  command->add_option("--threads", how.threads, "Threads (default: all)");
+}
+
+}  // namespace footwall::commands

@@ -1,0 +1,147 @@
+#include "engine/tasks/add_volume.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "storage/base/error.h"
+#include "storage/base/hash.h"
+
+namespace footwall::tasks {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void mismatch(const std::string& what) {
+  throw Error(ErrorCode::kInvalid, "the volume does not fit the project's survey: " + what,
+              "import it into a project of its own, or crop and resample it to the survey's grid first");
+}
+
+std::int64_t line_offset(std::string_view name, const survey::LineAxis& whole, const survey::LineAxis& part) {
+  if (part.count > 1 && part.step != whole.step) {
+    mismatch(fmt::format("{} step {}, the survey has {}", name, part.step, whole.step));
+  }
+  if ((part.first - whole.first) % whole.step != 0 || part.first < whole.first ||
+      part.last() > whole.last()) {
+    mismatch(fmt::format("{} {} to {}, the survey has {} to {} by {}", name, part.first, part.last(),
+                         whole.first, whole.last(), whole.step));
+  }
+  return whole.index_of(part.first);
+}
+
+// How far, in voxels, the two maps put the part's corners apart.
+double map_distance(const survey::Geometry& whole, const survey::Geometry& part,
+                    const survey::Index& origin) {
+  double worst = 0;
+  for (const double i : {0.0, static_cast<double>(part.inlines.count - 1)}) {
+    for (const double j : {0.0, static_cast<double>(part.crosslines.count - 1)}) {
+      const survey::IndexPoint at = whole.index_of(part.world_of({i, j, 0}));
+      worst = std::max({worst, std::abs(at.i - i - static_cast<double>(origin[0])),
+                        std::abs(at.j - j - static_cast<double>(origin[1]))});
+    }
+  }
+  return worst;
+}
+
+// A file name that any file system takes, made from the user's name for the volume.
+std::string file_stem(const std::string& name) {
+  std::string stem;
+  for (const char c : name) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
+    stem += plain ? c : '_';
+  }
+  if (stem.empty() || stem.front() == '.') stem.insert(0, "volume");
+  return stem.substr(0, 100);
+}
+
+fs::path free_path(const fs::path& folder, const std::string& name) {
+  fs::path path = folder / (file_stem(name) + ".h5");
+  for (int n = 2; fs::exists(path); ++n) path = folder / fmt::format("{}-{}.h5", file_stem(name), n);
+  return path;
+}
+
+project::VolumeRecord record_of(const volume::VolumeInfo& info) {
+  project::VolumeRecord record;
+  record.dims = info.dims;
+  record.origin = info.origin;
+  record.bytes = info.bytes;
+  record.checksum = to_hex(info.checksum);
+  record.min = info.statistics.min;
+  record.max = info.statistics.max;
+  record.mean = info.statistics.mean;
+  record.stddev = info.statistics.stddev;
+  record.max_abs = info.statistics.max_abs;
+  record.null_count = info.statistics.null_count;
+  record.live_traces = info.statistics.live_traces;
+  if (info.null_value) record.null_value = *info.null_value;
+  record.role = name_of(info.role);
+  record.source = info.source;
+  record.provenance = info.provenance_json;
+  return record;
+}
+
+}  // namespace
+
+survey::Index origin_in(const survey::Geometry& survey, const survey::Geometry& part) {
+  if (survey.domain != part.domain || survey.vertical_unit != part.vertical_unit) {
+    mismatch(fmt::format("{} in {}, the survey is {} in {}", name_of(part.domain),
+                         name_of(part.vertical_unit), name_of(survey.domain), name_of(survey.vertical_unit)));
+  }
+  if (std::abs(part.interval - survey.interval) > 1e-9 * survey.interval) {
+    mismatch(fmt::format("sample interval {}, the survey has {}", part.interval, survey.interval));
+  }
+  const double first = (part.z0 - survey.z0) / survey.interval;
+  const double sample = std::nearbyint(first);
+  if (std::abs(first - sample) > 1e-3 || sample < 0 ||
+      sample + static_cast<double>(part.samples) > static_cast<double>(survey.samples)) {
+    mismatch(fmt::format("{} samples from {}, the survey has {} from {}", part.samples, part.z0,
+                         survey.samples, survey.z0));
+  }
+  const survey::Index origin{line_offset("inlines", survey.inlines, part.inlines),
+                             line_offset("crosslines", survey.crosslines, part.crosslines),
+                             static_cast<std::int64_t>(sample)};
+  if (const double apart = map_distance(survey, part, origin); apart > 0.05) {
+    mismatch(fmt::format("its X and Y lie up to {:.2f} bins from the survey's for the same lines", apart));
+  }
+  return origin;
+}
+
+project::VolumeRecord add_volume(project::Project& project, const std::string& name,
+                                 const VolumeSource& source, const JobContext& job) {
+  project::check_name("volume", name);  // before the long work, not after it
+  for (const project::VolumeRecord& other : project.volumes()) {
+    if (other.name == name) {
+      throw Error(ErrorCode::kInvalid, fmt::format("the project has a volume '{}' already", name),
+                  "choose another --name");
+    }
+  }
+  source.geometry.validate();
+  const std::optional<survey::Geometry> survey = project.survey();
+  volume::WriteOptions options;
+  options.geometry = source.geometry;
+  if (survey) options.origin = origin_in(*survey, source.geometry);
+  options.null_value = source.null_value;
+  options.role = source.role;
+  options.source = source.text;
+  options.provenance_json = source.provenance_json;
+
+  std::error_code failure;
+  const bool made_folder = fs::create_directories(project.volumes_folder(), failure);
+  if (failure) throw io_error("create", project.volumes_folder(), failure.value());
+  const fs::path path = free_path(project.volumes_folder(), name);
+  try {
+    project::VolumeRecord record = record_of(volume::write_volume(path, options, source.fill, job));
+    record.name = name;
+    record.file = project.relative_file(path);
+    if (!survey) project.set_survey(source.geometry, source.provenance_json);
+    record.id = project.add_volume(record);
+    return record;
+  } catch (...) {
+    fs::remove(path, failure);  // not listed, so not kept
+    if (made_folder) fs::remove(project.volumes_folder(), failure);
+    throw;
+  }
+}
+
+}  // namespace footwall::tasks

@@ -1,0 +1,32 @@
+// Puts a volume into a project: streams it into the volumes folder, then lists it. A failure or cancel leaves
+// neither.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "storage/base/job_context.h"
+#include "storage/project/project.h"
+#include "storage/volume/volume_writer.h"
+
+namespace footwall::tasks {
+
+// Where a volume comes from; `fill` as volume::BlockSource says.
+struct VolumeSource {
+  survey::Geometry geometry;
+  volume::BlockSource fill;
+  std::optional<float> null_value;
+  volume::Role role = volume::Role::kAmplitude;
+  std::string text;                    // in words, e.g. "SEG-Y f3.sgy"
+  std::string provenance_json = "{}";  // how it was made
+};
+
+// The first volume gives a project without a survey its survey; later ones must lie on its grid.
+// Throws kInvalid with the numbers where they do not, or where the name is taken; and what writing throws.
+project::VolumeRecord add_volume(project::Project& project, const std::string& name,
+                                 const VolumeSource& source, const JobContext& job);
+
+// The index of part's first voxel in the survey. Throws kInvalid, with both numbers, where line numbers,
+// steps, interval, domain or map differ, or where the part reaches outside.
+survey::Index origin_in(const survey::Geometry& survey, const survey::Geometry& part);
+
+}  // namespace footwall::tasks

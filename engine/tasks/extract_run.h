@@ -1,0 +1,36 @@
+// EXTRACT-ALL on the faults of a project: triangulates what is stale, launches the engine, attaches the
+// result.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/extract/face.h"
+#include "engine/session/launch.h"
+#include "storage/base/job_context.h"
+#include "storage/project/project.h"
+
+namespace footwall::tasks {
+
+struct ExtractOptions {
+  std::string volume;  // empty: the first one
+  std::string fault;   // empty: all
+  std::string name;    // of the run; empty: "run N"
+  extract::Options engine;
+  session::LaunchOptions launch;
+  std::optional<double> velocity;  // m/s, for metres in a time survey
+};
+
+struct Extracted {
+  std::int64_t run = 0;
+  std::string volume;
+  std::string result_json;                // the engine's answer, see session/batch.h
+  std::vector<std::string> triangulated;  // faults whose mesh was made first
+  std::vector<std::string> skipped;       // faults that could not be made a surface, with the reason
+};
+
+// Throws kUsage for names that are not built, kInvalid where no fault has a surface, kNotFound for a missing
+// volume, kEngine, and the engine's own errors. A failure or cancel leaves the runs as they were.
+Extracted extract_run(project::Project& project, const ExtractOptions& options, const JobContext& job);
+
+}  // namespace footwall::tasks

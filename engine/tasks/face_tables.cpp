@@ -1,0 +1,144 @@
+#include "engine/tasks/face_tables.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <unordered_map>
+
+#include "engine/tasks/statistics.h"
+#include "engine/tasks/triangulate.h"
+#include "storage/base/error.h"
+#include "storage/survey/lattice.h"
+
+namespace footwall::tasks {
+namespace {
+
+struct LatticeHash {
+  std::size_t operator()(const survey::LatticePoint& p) const {
+    std::uint64_t h = static_cast<std::uint32_t>(p.i) * 0x9E3779B97F4A7C15ULL;
+    h = (h ^ static_cast<std::uint32_t>(p.j)) * 0xC2B2AE3D27D4EB4FULL;
+    return (h ^ static_cast<std::uint32_t>(p.k)) * 0x165667B19E3779F9ULL;
+  }
+};
+
+std::string face_id(std::int64_t panel, std::int32_t n) {
+  return fmt::format("{}.{}", panel, n);
+}
+
+// The run's own triangles, welded by lattice position; the picked positions while the mesh is that of the
+// run.
+void fill_shape(formats::MeshTable& table, const project::FaultRun& run,
+                const std::optional<project::MeshRecord>& mesh, const survey::Lattice& lattice,
+                Coordinates coordinates) {
+  const bool same_mesh = mesh && mesh->revision == run.revision && mesh->faces.size() == run.lattice.size();
+  if (same_mesh && coordinates == Coordinates::kWorld) {
+    for (const project::MeshVertex& vertex : mesh->vertices) table.vertices.push_back(vertex.position);
+    for (const project::MeshFace& face : mesh->faces) table.triangles.push_back(face.vertices);
+  } else {
+    std::unordered_map<survey::LatticePoint, std::int32_t, LatticeHash> known;
+    for (const survey::LatticeTriangle& triangle : run.lattice) {
+      std::array<std::int32_t, 3> corners{};
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto [at, added] = known.emplace(triangle[c], static_cast<std::int32_t>(table.vertices.size()));
+        if (added) {
+          const survey::IndexPoint p = survey::Lattice::index_of(triangle[c]);
+          table.vertices.push_back(coordinates == Coordinates::kIndex ? survey::WorldPoint{p.i, p.j, p.k}
+                                                                      : lattice.world_of(triangle[c]));
+        }
+        corners[c] = at->second;
+      }
+      table.triangles.push_back(corners);
+    }
+  }
+  for (std::size_t f = 0; f < run.panels.size(); ++f)
+    table.face_ids.push_back(face_id(run.panels[f], run.numbers[f]));
+}
+
+formats::MeshTable of_run(const project::Project& project, const project::FaultRecord& fault,
+                          const project::FaultRun& run, const survey::Lattice& lattice,
+                          Coordinates coordinates) {
+  formats::MeshTable table;
+  table.fault = fault.name;
+  fill_shape(table, run, project.mesh(fault.id), lattice, coordinates);
+  // Known statistics come in their usual order, others behind them.
+  std::map<std::string, std::vector<double>> left = run.statistics;
+  for (const project::StatisticRecord& known : stored_statistics()) {
+    const auto found = left.find(known.name);
+    if (found == left.end()) continue;
+    table.statistics.push_back({found->first, std::move(found->second)});
+    left.erase(found);
+  }
+  for (auto& [name, values] : left) table.statistics.push_back({name, std::move(values)});
+  return table;
+}
+
+formats::MeshTable of_mesh(const project::FaultRecord& fault, const project::MeshRecord& mesh,
+                           const survey::Lattice& lattice, Coordinates coordinates) {
+  formats::MeshTable table;
+  table.fault = fault.name;
+  for (const project::MeshVertex& vertex : mesh.vertices) {
+    if (coordinates == Coordinates::kWorld) {
+      table.vertices.push_back(vertex.position);
+    } else {
+      const survey::IndexPoint p = survey::Lattice::index_of(lattice.from_world(vertex.position));
+      table.vertices.push_back({p.i, p.j, p.k});
+    }
+  }
+  for (const project::MeshFace& face : mesh.faces) {
+    table.triangles.push_back(face.vertices);
+    table.face_ids.push_back(face_id(face.panel, face.n));
+  }
+  return table;
+}
+
+}  // namespace
+
+FaceTables face_tables(const project::Project& project, const std::string& fault,
+                       std::optional<std::int64_t> run, Coordinates coordinates) {
+  const survey::Lattice lattice(required_survey(project, "a face table"));
+  FaceTables out;
+  if (run || !project.runs().empty()) out.run = project.run(run);
+  const std::vector<std::int64_t> in_run =
+      out.run ? project.run_faults(out.run->id) : std::vector<std::int64_t>{};
+  for (const project::FaultRecord& record : chosen_faults(project, fault)) {
+    if (out.run) {
+      if (std::find(in_run.begin(), in_run.end(), record.id) == in_run.end()) continue;
+      const project::FaultRun stored = project.fault_statistics(out.run->id, record.id);
+      if (stored.revision != record.revision) out.stale.push_back(record.name);
+      out.tables.push_back(of_run(project, record, stored, lattice, coordinates));
+    } else if (const auto mesh = project.mesh(record.id)) {
+      out.tables.push_back(of_mesh(record, *mesh, lattice, coordinates));
+    }
+  }
+  return out;
+}
+
+const std::vector<double>& values_of(const formats::MeshTable& table, const std::string& statistic) {
+  std::string names;
+  for (const formats::FaceStatistic& known : table.statistics) {
+    if (known.name == statistic) return known.values;
+    names += (names.empty() ? "" : ", ") + known.name;
+  }
+  throw Error(ErrorCode::kUsage, fmt::format("there is no statistic '{}'", statistic),
+              names.empty() ? "footwall extract computes them" : "there are: " + names);
+}
+
+std::vector<RankedFace> ranked_faces(const FaceTables& faces, const std::string& statistic, bool lowest_first,
+                                     std::size_t most, double least_count) {
+  std::vector<RankedFace> ranked;
+  for (std::size_t t = 0; t < faces.tables.size(); ++t) {
+    const std::vector<double>& values = values_of(faces.tables[t], statistic);
+    const std::vector<double>& counts = values_of(faces.tables[t], "count");
+    for (std::size_t f = 0; f < values.size(); ++f) {
+      if (counts[f] >= least_count && !std::isnan(values[f])) ranked.push_back({t, f, values[f]});
+    }
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [&](const RankedFace& a, const RankedFace& b) {
+    return lowest_first ? a.value < b.value : a.value > b.value;
+  });
+  if (ranked.size() > most) ranked.resize(most);
+  return ranked;
+}
+
+}  // namespace footwall::tasks

@@ -1,0 +1,40 @@
+// The faces of faults with the statistics of a run, for CSV, VTP, TSurf, pictures and rankings.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "storage/formats/mesh_table.h"
+#include "storage/project/project.h"
+
+namespace footwall::tasks {
+
+enum class Coordinates : std::uint8_t {
+  kWorld,  // as picked, in the survey's CRS and vertical unit
+  kIndex   // the lattice positions that were voxelized, in voxels: i as x, j as y, k as z
+};
+
+struct FaceTables {
+  std::vector<formats::MeshTable> tables;
+  std::optional<project::RunRecord> run;  // none: no run yet, and so no statistics
+  std::vector<std::string> stale;         // faults edited since the run: their faces are those of the run
+};
+
+// fault: empty for all. run: none for the last. Faults of a run that are no longer in the project are left
+// out. Without any run the present meshes come without statistics. Throws kNotFound for names and runs that
+// are not there.
+FaceTables face_tables(const project::Project& project, const std::string& fault,
+                       std::optional<std::int64_t> run, Coordinates coordinates);
+
+// Faces with at least `least_count` samples and a defined value, by rising (or falling) value; ties by order.
+struct RankedFace {
+  std::size_t table = 0;
+  std::size_t face = 0;
+  double value = 0;
+};
+std::vector<RankedFace> ranked_faces(const FaceTables& faces, const std::string& statistic, bool lowest_first,
+                                     std::size_t most, double least_count = 30);
+// The values of a statistic in a table; throws kUsage listing the names where it is not there.
+const std::vector<double>& values_of(const formats::MeshTable& table, const std::string& statistic);
+
+}  // namespace footwall::tasks

@@ -1,0 +1,185 @@
+#include "engine/tasks/render_faults.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/render/fault_picture.h"
+#include "engine/tasks/face_tables.h"
+#include "engine/tasks/open_volume.h"
+#include "engine/tasks/statistics.h"
+#include "engine/tasks/triangulate.h"
+#include "storage/base/error.h"
+#include "storage/base/text.h"
+#include "storage/formats/png.h"
+#include "storage/volume/volume_reader.h"
+
+namespace footwall::tasks {
+namespace {
+
+// A plane of the survey, by the words of --section.
+struct Plane {
+  int axis = 0;
+  std::int64_t index = 0;
+};
+
+Plane plane_of(const std::string& words, const survey::Geometry& survey) {
+  const auto equals = words.find('=');
+  const std::string axis = words.substr(0, equals);
+  const std::string at = equals == std::string::npos ? "" : words.substr(equals + 1);
+  const auto wrong = [&] {
+    return Error(ErrorCode::kUsage, fmt::format("'{}' is not a section", words),
+                 "write inline=N, crossline=N or z=VALUE; first, middle and last are numbers too");
+  };
+  Plane plane;
+  if (axis == "inline")
+    plane.axis = 0;
+  else if (axis == "crossline")
+    plane.axis = 1;
+  else if (axis == "z")
+    plane.axis = 2;
+  else
+    throw wrong();
+
+  const std::int64_t count = survey.dims()[static_cast<std::size_t>(plane.axis)];
+  if (at == "first") return plane;
+  if (at == "middle" || at == "last") {
+    plane.index = at == "last" ? count - 1 : count / 2;
+    return plane;
+  }
+  const auto number = text::number(at);
+  if (!number) throw wrong();
+  std::string range;
+  if (plane.axis == 2) {
+    plane.index = static_cast<std::int64_t>(std::nearbyint((*number - survey.z0) / survey.interval));
+    range =
+        fmt::format("{} to {} {}", survey.z0, survey.z0 + survey.interval * static_cast<double>(count - 1),
+                    name_of(survey.vertical_unit));
+  } else {
+    const survey::LineAxis& lines = plane.axis == 0 ? survey.inlines : survey.crosslines;
+    const auto line = static_cast<std::int64_t>(*number);
+    plane.index = static_cast<double>(line) == *number && line >= lines.first ? lines.index_of(line) : -1;
+    range = fmt::format("{} to {} by {}", lines.first, lines.last(), lines.step);
+  }
+  if (plane.index < 0 || plane.index >= count) {
+    throw Error(ErrorCode::kInvalid, fmt::format("the survey has no {}", words),
+                fmt::format("it has {} {}", axis, range));
+  }
+  return plane;
+}
+
+render::ShownSection section_of(const volume::VolumeReader& reader, const project::VolumeRecord& volume,
+                                const Plane& plane) {
+  if (volume.origin != survey::Index{0, 0, 0}) {
+    throw Error(
+        ErrorCode::kUnsupported,
+        fmt::format("sections of '{}', which covers a part of the survey, cannot be drawn yet", volume.name),
+        "choose a volume of the whole survey with --volume");
+  }
+  survey::Box box = {{0, 0, 0}, volume.dims};
+  const auto axis = static_cast<std::size_t>(plane.axis);
+  box.lo[axis] = plane.index;
+  box.hi[axis] = plane.index + 1;
+  render::ShownSection section{plane.axis, plane.index,
+                               std::vector<float>(static_cast<std::size_t>(box.count()))};
+  reader.read(box, section.values);
+  return section;
+}
+
+// A face without voxels has no colour, whatever its statistic's convention.
+std::vector<double> shown_values(const formats::MeshTable& table, const std::string& statistic) {
+  std::vector<double> values = values_of(table, statistic);
+  const std::vector<double>& counts = values_of(table, "count");
+  for (std::size_t f = 0; f < values.size(); ++f) {
+    if (counts[f] == 0) values[f] = std::numeric_limits<double>::quiet_NaN();
+  }
+  return values;
+}
+
+// Where the interpreter picked; what was interpolated between shows in the surface.
+std::vector<std::vector<survey::WorldPoint>> picked_pillars(const project::Project& project,
+                                                            std::int64_t fault) {
+  std::vector<std::vector<survey::WorldPoint>> lines;
+  for (const survey::Pillar& pillar : project.pillars(fault)) {
+    if (pillar.kind == survey::PillarKind::kInterpolated) continue;
+    lines.emplace_back();
+    for (const survey::PillarNode& node : pillar.nodes) lines.back().push_back(node.position);
+  }
+  return lines;
+}
+
+// "amplitude^2" as it is written by hand.
+std::string raised(std::string unit) {
+  for (const auto& [plain, sign] : {std::pair{"^2", "²"}, std::pair{"^3", "³"}}) {
+    if (const auto at = unit.find(plain); at != std::string::npos) unit.replace(at, 2, sign);
+  }
+  return unit;
+}
+
+void add_faults(const project::Project& project, const RenderOptions& options, render::FaultPicture& picture,
+                Rendered& done) {
+  const FaceTables faces = face_tables(project, "", options.run, Coordinates::kWorld);
+  std::size_t n = 0;
+  for (const formats::MeshTable& table : faces.tables) {
+    render::FaultMesh mesh;
+    mesh.name = table.fault;
+    mesh.colour = render::fault_colour(n++);
+    mesh.vertices = table.vertices;
+    mesh.triangles = table.triangles;
+    if (faces.run) mesh.values = shown_values(table, options.statistic);
+    mesh.pillars = picked_pillars(project, project.fault(table.fault).id);
+    done.faces += static_cast<std::int64_t>(table.triangles.size());
+    picture.faults.push_back(std::move(mesh));
+  }
+  if (faces.tables.empty()) {
+    throw Error(ErrorCode::kInvalid, "no fault has a mesh yet", "footwall triangulate makes them");
+  }
+  if (!faces.run)
+    done.notices.emplace_back(
+        "no statistics yet: faults are drawn in their plain colours (footwall extract computes them)");
+  for (const std::string& name : faces.stale)
+    done.notices.push_back(name + " was edited since its colours were computed");
+
+  const auto known = stored_statistics();
+  const auto row =
+      std::find_if(known.begin(), known.end(), [&](const auto& r) { return r.name == options.statistic; });
+  if (row == known.end())
+    throw Error(ErrorCode::kUsage, fmt::format("there is no statistic '{}'", options.statistic),
+                "footwall faces lists them");
+  picture.statistic.title = row->name == "variance" ? "amplitude variance" : row->name;
+  picture.statistic.unit = raised(unit_of(*row));
+  picture.statistic.colours =
+      &render::ColourMap::named(options.colours.empty() ? row->colour_map : options.colours);
+  if (options.range) picture.statistic.range = render::Range{(*options.range)[0], (*options.range)[1]};
+  if (faces.run) picture.statistic.note = fmt::format("{}, volume {}", faces.run->name, faces.run->volume);
+}
+
+}  // namespace
+
+Rendered render_faults(const project::Project& project, const RenderOptions& options,
+                       const std::filesystem::path& out, const JobContext& job) {
+  render::FaultPicture picture;
+  picture.geometry = required_survey(project, "a picture");
+  picture.title = project.path().stem().string();
+  picture.view = {options.azimuth,      options.elevation, options.zoom, true,
+                  options.exaggeration, options.velocity};
+  Rendered done;
+  job.report(0.05, "read");
+  if (options.faults) add_faults(project, options, picture, done);
+  if (!options.sections.empty()) {
+    const project::VolumeRecord volume = project.volume(options.volume);
+    const volume::VolumeReader reader = open_volume(project, volume);
+    for (const std::string& words : options.sections) {
+      picture.sections.push_back(section_of(reader, volume, plane_of(words, picture.geometry)));
+    }
+    picture.section_style.title = volume.name;
+  }
+  job.report(0.3, "draw");
+  const render::Picture drawn = render::draw(picture, options.width, options.height, options.threads);
+  job.report(0.9, "write");
+  formats::write_png(out, drawn.width, drawn.height, drawn.rgba);
+  return done;
+}
+
+}  // namespace footwall::tasks

@@ -1,0 +1,187 @@
+#include "engine/tasks/triangulate.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unordered_map>
+
+#include "engine/pillars/interpolate.h"
+#include "engine/pillars/triangulate.h"
+#include "storage/base/error.h"
+
+namespace footwall::tasks {
+namespace {
+
+constexpr const char* kAlgorithm = "panels 1";
+
+project::Bytes packed(const pillars::Chart& chart) {
+  const std::string text = chart.to_text();
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+std::optional<pillars::Chart> unpacked(const project::Bytes& bytes) {
+  if (bytes.empty()) return std::nullopt;
+  return pillars::Chart::from_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+// The chart that the fault was first triangulated in, if it was.
+std::optional<pillars::Chart> stored_chart(const project::Project& project,
+                                           const project::FaultRecord& fault) {
+  if (!fault.chart.empty()) return unpacked(fault.chart);
+  const auto mesh = project.mesh(fault.id);
+  return mesh ? unpacked(mesh->chart) : std::nullopt;
+}
+
+std::vector<pillars::PillarInput> inputs(const survey::Geometry& survey,
+                                         std::span<const survey::Pillar> stored) {
+  std::vector<pillars::PillarInput> out;
+  for (const survey::Pillar& pillar : stored) {
+    pillars::PillarInput input{pillar.id, std::to_string(pillar.id), {}};
+    for (const survey::PillarNode& node : pillar.nodes) {
+      input.nodes.push_back(survey.index_of(node.position));
+      input.node_ids.push_back(node.id);
+    }
+    out.push_back(std::move(input));
+  }
+  return out;
+}
+
+Error about(const project::FaultRecord& fault, const Error& error) {
+  return {error.code(), fmt::format("fault {}: {}", fault.name, error.message()), error.hint()};
+}
+
+project::MeshRecord mesh_record(const survey::Geometry& survey, const project::FaultRecord& fault,
+                                std::span<const survey::Pillar> stored, const pillars::FaultMesh& mesh,
+                                const TriangulateOptions& options) {
+  // A picked node keeps its position as picked; mapping it to index space and back would round it.
+  std::unordered_map<std::int64_t, survey::WorldPoint> picked;
+  for (const survey::Pillar& pillar : stored) {
+    for (const survey::PillarNode& node : pillar.nodes) picked.emplace(node.id, node.position);
+  }
+  project::MeshRecord record;
+  record.revision = fault.revision;
+  record.algorithm = kAlgorithm;
+  record.parameters =
+      nlohmann::json{{"detail", options.detail}, {"max_edge", options.max_edge}, {"tie", options.tie}}.dump();
+  record.chart = packed(mesh.chart);
+  record.vertices.reserve(mesh.vertices.size());
+  for (const pillars::MeshVertex& vertex : mesh.vertices) {
+    project::MeshVertex out;
+    const bool on_pillar = vertex.kind == pillars::MeshVertex::Kind::kPillar;
+    out.kind = on_pillar ? project::MeshVertex::Owner::kPillar : project::MeshVertex::Owner::kPanel;
+    out.owner = vertex.owner;
+    out.n = vertex.n;
+    out.position = vertex.node_id >= 0 ? picked.at(vertex.node_id) : survey.world_of(vertex.position);
+    record.vertices.push_back(out);
+  }
+  record.faces.reserve(mesh.faces.size());
+  for (const pillars::MeshFace& face : mesh.faces)
+    record.faces.push_back({face.panel, face.n, face.vertices});
+  return record;
+}
+
+}  // namespace
+
+survey::Geometry required_survey(const project::Project& project, std::string_view what) {
+  if (auto survey = project.survey()) return *survey;
+  throw Error(ErrorCode::kInvalid, fmt::format("{} needs a survey, and the project has none", what),
+              fmt::format("footwall import volume {} FILE gives it one", project.path().string()));
+}
+
+std::vector<project::FaultRecord> chosen_faults(const project::Project& project, const std::string& name) {
+  if (!name.empty()) return {project.fault(name)};
+  std::vector<project::FaultRecord> faults = project.faults();
+  if (faults.empty()) {
+    throw Error(ErrorCode::kNotFound, "the project has no faults",
+                "footwall import sticks or footwall edit add them");
+  }
+  return faults;
+}
+
+Triangulated triangulate_fault(project::Project& project, const project::FaultRecord& fault,
+                               const TriangulateOptions& options, const JobContext& job) {
+  const survey::Geometry survey = required_survey(project, "triangulation");
+  const std::vector<survey::Pillar> stored = project.pillars(fault.id);
+  try {
+    const pillars::FaultMesh mesh =
+        pillars::triangulate(inputs(survey, stored), {options.detail, options.max_edge, options.tie},
+                             options.rechart ? std::nullopt : stored_chart(project, fault), job);
+    project.store_mesh(fault.id, mesh_record(survey, fault, stored, mesh, options));
+    return {fault.name, static_cast<std::int64_t>(mesh.vertices.size()),
+            static_cast<std::int64_t>(mesh.faces.size()), mesh.notes};
+  } catch (const Error& error) {
+    throw about(fault, error);
+  }
+}
+
+std::int64_t interpolate_fault(project::Project& project, const project::FaultRecord& fault,
+                               const InterpolateOptions& options, const JobContext& job) {
+  const survey::Geometry survey = required_survey(project, "interpolation");
+  std::vector<survey::Pillar> picked = project.pillars(fault.id);
+  std::vector<std::int64_t> former;
+  std::erase_if(picked, [&](const survey::Pillar& pillar) {
+    if (pillar.kind != survey::PillarKind::kInterpolated) return false;
+    former.push_back(pillar.id);
+    return true;
+  });
+  try {
+    pillars::InterpolateOptions how;
+    how.every_lines = options.every;
+    how.tolerance = options.tolerance;
+    const pillars::Interpolation made =
+        pillars::interpolate(inputs(survey, picked), how, stored_chart(project, fault), job);
+    project.edit("Interpolate pillars of " + fault.name, [&](project::Interpretation& picks) {
+      for (const std::int64_t pillar : former) picks.delete_pillar(pillar);
+      for (const pillars::InterpolatedPillar& one : made.pillars) {
+        survey::Pillar pillar;
+        pillar.kind = survey::PillarKind::kInterpolated;
+        pillar.parent_a = one.parents.a;
+        pillar.parent_b = one.parents.b;
+        pillar.parameter = one.parents.parameter;
+        for (const survey::IndexPoint& node : one.nodes) pillar.nodes.push_back({0, survey.world_of(node)});
+        picks.add_pillar(fault.id, pillar);
+      }
+    });
+    return static_cast<std::int64_t>(made.pillars.size());
+  } catch (const Error& error) {
+    throw about(fault, error);
+  }
+}
+
+std::int64_t remove_interpolated(project::Project& project, const project::FaultRecord& fault) {
+  std::int64_t removed = 0;
+  project.edit("Remove interpolated pillars of " + fault.name, [&](project::Interpretation& picks) {
+    for (const survey::Pillar& pillar : picks.pillars(fault.id)) {
+      if (pillar.kind != survey::PillarKind::kInterpolated) continue;
+      picks.delete_pillar(pillar.id);
+      ++removed;
+    }
+  });
+  return removed;
+}
+
+void follow_parents(project::Project& project) {
+  const std::optional<survey::Geometry> survey = project.survey();
+  if (!survey) return;  // without index space the straight line between the parents stays
+  project.set_regenerator([survey = *survey](const project::FaultRecord& fault,
+                                             std::span<const survey::Pillar> all,
+                                             std::span<const survey::Pillar> children) {
+    std::vector<survey::Pillar> picked;
+    for (const survey::Pillar& pillar : all) {
+      if (pillar.kind != survey::PillarKind::kInterpolated) picked.push_back(pillar);
+    }
+    std::vector<pillars::Parents> parents;
+    for (const survey::Pillar& child : children)
+      parents.push_back({child.parent_a, child.parent_b, child.parameter});
+    const pillars::Interpolation made =
+        pillars::regenerate(inputs(survey, picked), parents, {}, unpacked(fault.chart), {});
+    std::vector<std::vector<survey::WorldPoint>> lines;
+    for (const pillars::InterpolatedPillar& one : made.pillars) {
+      std::vector<survey::WorldPoint>& line = lines.emplace_back();
+      for (const survey::IndexPoint& node : one.nodes) line.push_back(survey.world_of(node));
+    }
+    return lines;
+  });
+}
+
+}  // namespace footwall::tasks
