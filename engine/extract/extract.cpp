@@ -8,7 +8,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "engine/extract/balance/none.h"
+#include "engine/extract/balance/balance.h"
 #include "engine/extract/exchange/exchange.h"
 #include "engine/extract/registry.h"
 #include "engine/extract/statistics/discontinuity.h"
@@ -123,8 +123,10 @@ Result extract_all(const comm::Communicator& parent, const Input& input, const O
   comm::Communicator world(parent, grid);
 
   // 1 read
-  auto [responsible, block] = world.collectively(
-      [&] { return std::pair(balance_none(grid, input.faces), Block(grid.box(world.rank()), input.dims)); });
+  auto [responsible, block] = world.collectively([&] {
+    return std::pair(balance_strategy(options.balance).run(grid, input.faces),
+                     Block(grid.box(world.rank()), input.dims));
+  });
   read_block(world, read, job.part(0, 0.5), block);
   const double read_done = omp_get_wtime();
 
@@ -136,14 +138,14 @@ Result extract_all(const comm::Communicator& parent, const Input& input, const O
   const Setup setup{
       world,           grid, block, input, responsible, options.voxelizer, with_discontinuity, scale,
       options.threads, rest};
-  const bool minimum = options.exchange == "minimum";
-  const Outcome outcome = minimum ? exchange_minimum(setup) : exchange_reduce(setup);
+  const ExchangeStrategy& exchange = exchange_strategy(options.exchange);
+  const Outcome outcome = exchange.run(setup);
   const comm::Traffic traffic = world.traffic();
 
   Result result;
   result.faces = gathered(world, outcome.finished, input.faces.size());
   Report& report = result.report;
-  report.exchange = minimum ? "minimum" : "reduce";
+  report.exchange = exchange.name;
   report.balance = options.balance;
   report.ranks = world.size();
   report.threads = options.threads;

@@ -22,9 +22,6 @@ struct Input {
 // on every rank, perhaps with an empty box; must throw on all ranks or on none.
 using ReadBox = std::function<void(const survey::Box& box, std::span<float> values)>;
 
-// Throws Error kUsage for names that are unknown or not built, before anything is read. No communication.
-void validate(const Options& options);
-
 // Steps, each a timed phase: 1 read the rank's box and a halo of one trace; 2 voxelize; 3 exchange; 4
 // compute; then gather the results at rank 0. Collective; cancellable per face; errors are the same on every
 // rank. Throws kUsage (options), kMemory, kCorrupt (a sample far above max_abs), kCancelled.

@@ -5,25 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "engine/extract/balance/balance.h"
+#include "engine/extract/exchange/exchange.h"
 #include "engine/voxelize/registry.h"
 #include "storage/base/error.h"
 
 namespace footwall::extract {
 namespace {
-
-constexpr std::array kExchanges{
-    Row{"auto", true, "the fastest that the statistics allow; at present reduce"},
-    Row{"reduce", true, "owners fold their own voxels into exact partial sums; no voxel moves"},
-    Row{"minimum", true, "the responsible rank asks the owners for the voxels that it lacks, by coordinates"},
-    Row{"block", false, "like minimum, with blocks of voxels around each"},
-    Row{"bounding", false, "owners send the faces' bounding volumes"},
-    Row{"push", false, "owners send the values that nobody had to ask for"}};
-
-constexpr std::array kBalances{Row{"none", true, "the rank of a face's centroid is responsible for it"},
-                               Row{"minimal", false, "moves as few voxels as an even load needs"},
-                               Row{"global", false, "faces of overloaded ranks go to any other"},
-                               Row{"local", false, "faces of overloaded ranks go to neighbours"},
-                               Row{"manhattan", false, "faces go to the nearest rank with room"}};
 
 constexpr std::array kStatistics{
     Row{"count", true, "voxels with a value"},
@@ -33,13 +21,24 @@ constexpr std::array kStatistics{
     Row{"max", true, "largest amplitude"},
     Row{"discontinuity", true, "0 where the traces around are alike, towards 1 where they are not"}};
 
+template <class Strategy>
+std::vector<Row> rows_of(std::span<const Strategy> strategies) {
+  std::vector<Row> rows;
+  for (const Strategy& strategy : strategies) {
+    rows.push_back({strategy.name, strategy.run != nullptr, strategy.help});
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::span<const Row> exchange_rows() {
-  return kExchanges;
+  static const std::vector<Row> rows = rows_of(exchange_strategies());
+  return rows;
 }
 std::span<const Row> balance_rows() {
-  return kBalances;
+  static const std::vector<Row> rows = rows_of(balance_strategies());
+  return rows;
 }
 std::span<const Row> voxelizer_rows() {
   static const std::vector<Row> rows = [] {

@@ -3,6 +3,8 @@
 #include <span>
 #include <string_view>
 
+#include "engine/extract/face.h"
+
 namespace footwall::extract {
 
 struct Row {
@@ -15,6 +17,9 @@ std::span<const Row> exchange_rows();   // auto, reduce, minimum; block, boundin
 std::span<const Row> balance_rows();    // none; minimal, global, local, manhattan are not built
 std::span<const Row> voxelizer_rows();  // those of engine/voxelize/registry.h
 std::span<const Row> statistic_rows();  // count, mean, variance, min, max, discontinuity
+
+// Throws Error kUsage for names that are unknown or not built, and for impossible numbers.
+void validate(const Options& options);
 
 // The row of `text`, which may carry parameters ("block=8"); throws Error kUsage, listing the names, where
 // there is none or it is not built. `family` is the option's name, e.g. "exchange".

@@ -7,6 +7,7 @@
 
 #include "engine/extract/extract.h"
 #include "engine/extract/face_geometry.h"
+#include "engine/extract/registry.h"
 #include "engine/session/job.h"
 #include "engine/session/part_file.h"
 #include "storage/base/hash.h"

@@ -12,7 +12,6 @@
 #include "engine/tasks/open_volume.h"
 #include "engine/tasks/statistics.h"
 #include "engine/tasks/triangulate.h"
-#include "engine/voxelize/registry.h"
 #include "storage/base/error.h"
 #include "storage/base/log.h"
 #include "storage/survey/lattice.h"
@@ -111,18 +110,10 @@ project::FaultRun fault_run(const session::Part& part, const project::MeshRecord
   return run;
 }
 
-void check_names(const extract::Options& options) {
-  extract::find_row(extract::exchange_rows(), "exchange", options.exchange);
-  extract::find_row(extract::balance_rows(), "balance", options.balance);
-  voxelize::make_voxelizer(options.voxelizer);
-  for (const std::string& name : options.compute)
-    extract::find_row(extract::statistic_rows(), "compute", name);
-}
-
 }  // namespace
 
 Extracted extract_run(project::Project& project, const ExtractOptions& options, const JobContext& job) {
-  check_names(options.engine);
+  extract::validate(options.engine);
   if (!options.name.empty()) project::check_name("run", options.name);
   const survey::Geometry survey = required_survey(project, "EXTRACT-ALL");
   const project::VolumeRecord volume = present_volume(project, options.volume);

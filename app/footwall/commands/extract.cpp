@@ -7,7 +7,6 @@
 #include "app/footwall/commands/options.h"
 #include "engine/extract/registry.h"
 #include "engine/tasks/extract_run.h"
-#include "engine/voxelize/registry.h"
 #include "storage/base/text.h"
 
 namespace footwall::commands {
@@ -71,14 +70,6 @@ std::string names(std::span<const extract::Row> rows) {
   return text;
 }
 
-std::string voxelizer_names() {
-  std::string text;
-  for (const voxelize::Method& method : voxelize::methods()) {
-    if (method.make != nullptr) text += (text.empty() ? "" : ", ") + std::string(method.name);
-  }
-  return text;
-}
-
 }  // namespace
 
 void add_extract(console::Program& program) {
@@ -101,7 +92,7 @@ void add_extract(console::Program& program) {
       "--balance", how.engine.balance,
       "How faces are spread over ranks: " + names(extract::balance_rows()) + " (default none)");
   command->add_option("--voxelizer", how.engine.voxelizer,
-                      "Which voxels a face cuts: " + voxelizer_names() + " (default exact)");
+                      "Which voxels a face cuts: " + names(extract::voxelizer_rows()) + " (default exact)");
   command->add_option("--compute", options->compute,
                       "Statistics, comma separated: " + names(extract::statistic_rows()) + " (default: all)");
   command->add_option("--velocity", how.velocity,

@@ -1,6 +1,7 @@
 // What every exchange strategy is given and gives back.
 #pragma once
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "engine/comm/communicator.h"
@@ -41,8 +42,19 @@ struct Outcome {
 // Whether the whole closed triangle lies in the survey's box.
 bool inside(const survey::LatticeTriangle& triangle, const survey::Index& dims);
 
-// Both are collective.
+// All are collective.
 Outcome exchange_reduce(const Setup& setup);
 Outcome exchange_minimum(const Setup& setup);
+
+// A strategy is one file in this folder and one row in strategies.cpp. run is null for one that is known by
+// name but not built.
+struct ExchangeStrategy {
+  std::string_view name;
+  std::string_view help;
+  Outcome (*run)(const Setup& setup);
+};
+std::span<const ExchangeStrategy> exchange_strategies();
+// The one that runs for a name of exchange_rows(): never "auto" itself.
+const ExchangeStrategy& exchange_strategy(std::string_view name);
 
 }  // namespace footwall::extract

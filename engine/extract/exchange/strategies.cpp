@@ -1,0 +1,38 @@
+#include <algorithm>
+#include <array>
+
+#include "engine/extract/exchange/exchange.h"
+#include "storage/base/error.h"
+
+namespace footwall::extract {
+namespace {
+
+// Partial sums always move less than voxels do, and all statistics there are can be folded.
+constexpr std::string_view kAuto = "reduce";
+
+constexpr std::array kStrategies{
+    ExchangeStrategy{"auto", "the fastest that the statistics allow; at present reduce", &exchange_reduce},
+    ExchangeStrategy{"reduce", "owners fold their own voxels into exact partial sums; no voxel moves",
+                     &exchange_reduce},
+    ExchangeStrategy{"minimum",
+                     "the responsible rank asks the owners for the voxels that it lacks, by coordinates",
+                     &exchange_minimum},
+    ExchangeStrategy{"block", "like minimum, with blocks of voxels around each", nullptr},
+    ExchangeStrategy{"bounding", "owners send the faces' bounding volumes", nullptr},
+    ExchangeStrategy{"push", "owners send the values that nobody had to ask for", nullptr}};
+
+}  // namespace
+
+std::span<const ExchangeStrategy> exchange_strategies() {
+  return kStrategies;
+}
+
+const ExchangeStrategy& exchange_strategy(std::string_view name) {
+  const std::string_view wanted = name == "auto" ? kAuto : name;
+  const auto* row = std::find_if(kStrategies.begin(), kStrategies.end(),
+                                 [&](const ExchangeStrategy& s) { return s.name == wanted; });
+  require(row != kStrategies.end() && row->run != nullptr, "an exchange strategy that was validated");
+  return *row;
+}
+
+}  // namespace footwall::extract
