@@ -22,8 +22,12 @@ struct LatticeHash {
   }
 };
 
+// "3-7.12": face 12 of the strip between pillars 3 and 7 (pillars::pair_id); "cell 8f2e....12" in a tied
+// network.
 std::string face_id(std::int64_t panel, std::int32_t n) {
-  return fmt::format("{}.{}", panel, n);
+  constexpr int kPillarBits = 31;
+  if (panel < 0) return fmt::format("cell {:x}.{}", static_cast<std::uint64_t>(panel), n);
+  return fmt::format("{}-{}.{}", panel >> kPillarBits, panel & ((std::int64_t{1} << kPillarBits) - 1), n);
 }
 
 // The run's own triangles, welded by lattice position; the picked positions while the mesh is that of the

@@ -62,6 +62,9 @@ class Extract(FootwallTest):
         volume = Volume(values.tolist(), (24, 20, 18))
         rows = faces(self.path("f.csv"))
         self.assertGreater(len(rows), 10)
+        self.assertEqual(len({(row["fault"], row["face"]) for row in rows}), len(rows))
+        for row in rows:
+            self.assertRegex(row["face"], r"^\d+-\d+\.\d+$")  # pillar-pillar.number
         for row in rows[:: max(1, len(rows) // 40)]:
             expected = statistics(triangle(row), volume)
             found = {key: number(row[key]) for key in expected}
