@@ -34,13 +34,13 @@ void remove_abandoned(const std::filesystem::path& home) {
 }  // namespace
 
 std::filesystem::path home_in_memory() {
-  const std::filesystem::path memory = "/dev/shm";
+  std::filesystem::path memory = "/dev/shm";
   return access(memory.c_str(), W_OK | X_OK) == 0 ? memory : temporary_home();
 }
 
 std::filesystem::path temporary_home() {
   std::error_code failure;
-  const std::filesystem::path home = std::filesystem::temp_directory_path(failure);
+  std::filesystem::path home = std::filesystem::temp_directory_path(failure);
   if (!failure) return home;
   throw Error(ErrorCode::kIo, "there is no folder for temporary files: " + failure.message(),
               "set TMPDIR to a folder that may be written");
