@@ -4,8 +4,7 @@
 #include <map>
 #include <set>
 
-#include "storage/base/error.h"
-#include "storage/formats/charisma.h"
+#include "storage/formats/stick_formats.h"
 
 namespace footwall::tasks {
 namespace {
@@ -37,11 +36,7 @@ std::int64_t points_outside(const survey::Geometry& survey, const std::vector<fo
 
 SticksImported import_sticks(project::Project& project, const std::filesystem::path& file,
                              const std::string& format, const formats::SticksOptions& options) {
-  if (!format.empty() && format != "charisma") {
-    throw Error(ErrorCode::kUsage, fmt::format("fault sticks of format '{}' cannot be read yet", format),
-                "formats that can: charisma");
-  }
-  formats::SticksImport read = formats::charisma::read(file, options);
+  formats::SticksImport read = formats::read_sticks(file, format, options);
   SticksImported imported;
   imported.report = std::move(read.report);
   if (const auto survey = project.survey()) {

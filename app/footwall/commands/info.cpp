@@ -4,6 +4,7 @@
 
 #include "app/footwall/commands/commands.h"
 #include "app/footwall/commands/options.h"
+#include "app/footwall/commands/segy_info.h"
 #include "engine/tasks/project_facts.h"
 #include "storage/formats/segy/segy_file.h"
 
@@ -70,27 +71,9 @@ std::string facts_text(const console::Json& facts) {
   return text;
 }
 
-std::string segy_text(const console::Json& facts) {
-  std::string text;
-  for (const auto& [key, value] : facts.items()) {
-    if (value.is_array()) continue;
-    text += fmt::format("{:14} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
-  }
-  for (const char* list : {"assumed", "warnings"}) {
-    for (const console::Json& line : facts[list])
-      text += fmt::format("{}: {}\n", list, line.get<std::string>());
-  }
-  return text;
-}
-
 console::Output run(const Options& options, const console::Console& console) {
   if (formats::segy::looks_like_segy(options.file)) {
-    // Only headers are reported, which read the same whatever z means.
-    const auto file = formats::segy::SegyFile::scan(options.file, {}, console.job());
-    console::Output output;
-    output.json = segy_json(file.report(), file.geometry());
-    output.text = segy_text(output.json);
-    return output;
+    return segy_info(options.file, console);
   }
   const project::Project project = open_project(options.file, project::OpenMode::kRead);
   console::Output output;

@@ -145,30 +145,6 @@ survey::Geometry VolumeOptions::raw_geometry() const {
   return geometry;
 }
 
-console::Json segy_json(const formats::segy::Report& report, const survey::Geometry& geometry) {
-  const auto lines = [](const survey::LineAxis& axis) {
-    return console::Json{
-        {"first", axis.first}, {"last", axis.last()}, {"step", axis.step}, {"count", axis.count}};
-  };
-  return {{"format", report.format},
-          {"format_name", report.format_name},
-          {"endian", formats::segy::name_of(report.endian)},
-          {"revision", fmt::format("{}.{}", report.revision_major, report.revision_minor)},
-          {"traces", report.traces},
-          {"samples", report.samples},
-          {"interval_us", report.interval_us},
-          {"inlines", lines(geometry.inlines)},
-          {"crosslines", lines(geometry.crosslines)},
-          {"live_traces", report.live_traces},
-          {"dead_traces", report.dead_traces},
-          {"duplicates", report.duplicates},
-          {"missing_bins", report.missing_bins},
-          {"fit_residual", report.residual},
-          {"right_handed", report.right_handed},
-          {"assumed", geometry.assumed},
-          {"warnings", report.warnings}};
-}
-
 console::Output volume_output(const project::VolumeRecord& volume, const survey::Geometry& survey) {
   const bool any = volume.null_count < volume.dims[0] * volume.dims[1] * volume.dims[2];
   console::Output output;

@@ -44,8 +44,6 @@ struct VolumeOptions {
   void check_samples() const;
 };
 
-// "SEG-Y: 414 traces of 75 samples, ..." and its warnings, for people and for JSON.
-console::Json segy_json(const formats::segy::Report& report, const survey::Geometry& geometry);
 // The volume that was brought in, in words and in JSON.
 console::Output volume_output(const project::VolumeRecord& volume, const survey::Geometry& survey);
 

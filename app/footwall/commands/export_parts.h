@@ -1,0 +1,43 @@
+// The parts of `footwall export`: each adds its options, says whether any was given, and writes its files.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/footwall/console/program.h"
+#include "storage/project/project.h"
+
+namespace footwall::commands {
+
+// Options that several parts look at.
+struct ExportChoice {
+  std::string fault;                // empty: all
+  std::optional<std::int64_t> run;  // none: the last
+  std::string z_positive;           // "up", "down" or empty: the format's default
+
+  void add_to(CLI::App& command);
+  bool z_up(bool otherwise) const { return z_positive.empty() ? otherwise : z_positive == "up"; }
+};
+
+struct ExportVolumes {
+  std::string volume, raw;
+
+  void add_to(CLI::App& command);
+  bool asked() const { return !raw.empty(); }
+  void run(const project::Project& project, const console::Console& console, console::Output& output) const;
+};
+
+struct ExportFaces {
+  std::string vtp, tsurf, csv;
+  std::vector<std::string> properties;
+  bool strict = false;
+
+  void add_to(CLI::App& command);
+  bool asked() const { return !vtp.empty() || !tsurf.empty() || !csv.empty(); }
+  void run(const project::Project& project, const ExportChoice& choice, console::Output& output) const;
+};
+
+// Notes a file that was written.
+void add_file(console::Output& output, const std::string& file);
+
+}  // namespace footwall::commands
