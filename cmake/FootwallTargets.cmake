@@ -70,6 +70,23 @@ function(footwall_slow_test NAME)
     FAIL_REGULAR_EXPRESSION "Running 0 tests")
 endfunction()
 
+# footwall_fuzz_test(segy SOURCES segy_fuzz.cpp LINKS footwall::formats)
+# A fuzz target, fuzz_<name>, with the driver of tests/fuzz; a short run of it is a unit test, so that the sanitizers
+# see it at every change. `packaging/dev fuzz` runs it long.
+function(footwall_fuzz_test NAME)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+  set(target fuzz_${NAME})
+  add_executable(${target} ${CMAKE_SOURCE_DIR}/tests/fuzz/driver.cpp ${CMAKE_SOURCE_DIR}/tests/fuzz/mutate.cpp
+    ${ARG_SOURCES})
+  target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+  target_compile_definitions(${target} PRIVATE FOOTWALL_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  target_link_libraries(${target} PRIVATE ${ARG_LINKS} footwall::base fmt::fmt OpenMP::OpenMP_CXX)
+  target_precompile_headers(${target} REUSE_FROM footwall_pch)
+  add_dependencies(unit_tests ${target})
+  add_test(NAME ${target} COMMAND ${target} --rounds 2000)
+  set_tests_properties(${target} PROPERTIES LABELS unit TIMEOUT 300)
+endfunction()
+
 # footwall_mpi_test(extract SOURCES extract/reduce_test.cpp LINKS footwall::extract [RANKS 1 2 3 4 7])
 # Runs one executable under each rank count: mpi_<name>.np7. main() is tests/mpi/main.cpp.
 function(footwall_mpi_test NAME)
