@@ -26,7 +26,7 @@ namespace footwall::fuzz {
 namespace {
 
 constexpr unsigned kHangSeconds = 20;
-constexpr std::uintmax_t kLargestOriginal = 64 << 10;
+constexpr std::uintmax_t kLargestOriginal = 32 << 10;
 constexpr std::int64_t kGrowthMiB = 256;
 
 struct Arguments {

@@ -9,7 +9,7 @@ namespace footwall::fuzz {
 
 struct Target {
   // Files of the test data to start from, relative to its folder: a path, or FOLDER/*.EXTENSION. Files above
-  // 64 KiB are left out, since a change would seldom hit what matters.
+  // 32 KiB are left out, since a change would seldom hit what matters.
   std::vector<std::string> files;
   // Inputs made by the target, so that it also has some where the test data are absent. At least one.
   std::vector<std::string> made;

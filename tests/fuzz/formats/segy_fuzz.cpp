@@ -26,7 +26,7 @@ class MemoryFile {
 };
 
 // Gaps may make a survey much larger than its file; then its corners stand for it.
-constexpr std::int64_t kMostSamples = 1 << 18;
+constexpr std::int64_t kMostSamples = 1 << 14;
 
 bool reads_alike(const formats::segy::SegyFile& file) {
   survey::Box box = file.geometry().box();
