@@ -14,6 +14,7 @@ struct ExportChoice {
   std::string fault;                // empty: all
   std::optional<std::int64_t> run;  // none: the last
   std::string z_positive;           // "up", "down" or empty: the format's default
+  std::string z_unit;               // "ms", "s", "m", "ft" or empty: the survey's vertical unit
 
   void add_to(CLI::App& command);
   bool z_up(bool otherwise) const { return z_positive.empty() ? otherwise : z_positive == "up"; }
@@ -34,6 +35,15 @@ struct ExportFaces {
 
   void add_to(CLI::App& command);
   bool asked() const { return !vtp.empty() || !tsurf.empty() || !csv.empty(); }
+  void run(const project::Project& project, const ExportChoice& choice, console::Output& output) const;
+};
+
+struct ExportSticks {
+  std::string sticks, format = "charisma";
+  bool interpolated = false, no_blanks = false;
+
+  void add_to(CLI::App& command);
+  bool asked() const { return !sticks.empty(); }
   void run(const project::Project& project, const ExportChoice& choice, console::Output& output) const;
 };
 
