@@ -1,4 +1,4 @@
-// footwall export: volumes and faces in other programs' formats.
+// footwall export: volumes, faces and sticks in other programs' formats.
 #include <memory>
 
 #include "app/footwall/commands/commands.h"
@@ -13,16 +13,19 @@ struct Options {
   ExportChoice choice;
   ExportVolumes volumes;
   ExportFaces faces;
+  ExportSticks sticks;
 };
 
 console::Output run(const Options& options, const console::Console& console) {
-  if (!options.faces.asked() && !options.volumes.asked()) {
-    throw Error(ErrorCode::kUsage, "nothing to export", "name a file with --raw, --vtp, --tsurf or --csv");
+  if (!options.faces.asked() && !options.volumes.asked() && !options.sticks.asked()) {
+    throw Error(ErrorCode::kUsage, "nothing to export",
+                "name a file with --raw, --vtp, --tsurf, --csv or --sticks");
   }
   const project::Project project = open_project(options.project, project::OpenMode::kRead);
   console::Output output{{{"files", console::Json::array()}}, ""};
   if (options.volumes.asked()) options.volumes.run(project, console, output);
   if (options.faces.asked()) options.faces.run(project, options.choice, output);
+  if (options.sticks.asked()) options.sticks.run(project, options.choice, output);
   return output;
 }
 
@@ -45,11 +48,13 @@ void add_file(console::Output& output, const std::string& file) {
 
 void add_export(console::Program& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add(nullptr, "export", "Write volumes and faces in other programs' formats",
-                                  [options](console::Console& console) { return run(*options, console); });
+  CLI::App* command =
+      program.add(nullptr, "export", "Write volumes, faces and sticks in other programs' formats",
+                  [options](console::Console& console) { return run(*options, console); });
   command->add_option("project", options->project, "The project, NAME.footwall")->required();
   options->volumes.add_to(*command);
   options->faces.add_to(*command);
+  options->sticks.add_to(*command);
   options->choice.add_to(*command);
 }
 
