@@ -57,6 +57,7 @@ std::string names_of_formats(bool written) {
 const StickFormat& format_of(const std::string& text, const SticksOptions& options,
                              const std::optional<OtherFile>& other) {
   if (options.columns) return stick_format("columns");
+  if (!options.layout.empty()) return stick_format("landmark");
   if (other)
     throw Error(ErrorCode::kFormat, fmt::format("this is {}, not fault sticks", other->what), other->use);
   std::string_view head = text;

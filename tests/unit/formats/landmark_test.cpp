@@ -75,8 +75,9 @@ TEST(Landmark, WithoutAUsableFormatFileNothingIsRead) {
     EXPECT_EQ(error.code(), ErrorCode::kUsage);
     EXPECT_NE(error.message().find("format file"), std::string::npos);
   }
-  for (const std::string_view bad : {"FAULT_X 1 12\n", "FAULT_X 12 1\n", "FAULT_X 0 5\n", "FAULT_X\n",
-                                "FAULT_X 1 99999999999999\n", "FAULT_X 1 2\nFAULT_Y 3 4\nFAULT_Z 5 6\n"}) {
+  for (const std::string_view bad :
+       {"FAULT_X 1 12\n", "FAULT_X 12 1\n", "FAULT_X 0 5\n", "FAULT_X\n", "FAULT_X 1 99999999999999\n",
+        "FAULT_X 1 2\nFAULT_Y 3 4\nFAULT_Z 5 6\n"}) {
     EXPECT_THROW(parse(kFile, with_layout(bad)), Error) << bad;
   }
 }
