@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::string_view kUnnamed = "unnamed";
 constexpr std::size_t kAnyLength = std::string_view::npos;
+constexpr std::size_t kLongestReason = 300;
 
 survey::IndexPoint index_of_lines(const survey::Geometry& survey, double inline_number,
                                   double crossline_number) {
@@ -93,7 +94,8 @@ void StickCollector::reject(std::int64_t line, const RowError& why) {
   ImportReport& report = result_.report;
   ++report.rejected_count;
   if (report.rejected.size() < ImportReport::kListedRejects) {
-    report.rejected.push_back({line, static_cast<std::int64_t>(why.at) + 1, as_utf8(why.reason)});
+    report.rejected.push_back(
+        {line, static_cast<std::int64_t>(why.at) + 1, clean_name(why.reason, kLongestReason)});
   }
 }
 
