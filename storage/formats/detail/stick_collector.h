@@ -38,7 +38,9 @@ class StickCollector {
 
   // What the file says of the z that follows: direction (unset: nothing) and unit ("ms", "s", "m", "ft";
   // empty: nothing). What the user told goes before it. May be called again, e.g. for each object of a file.
-  void file_states(std::optional<bool> z_positive_up, std::string_view z_unit);
+  // `by`: who says so, where it is not the file itself but, say, the format's default.
+  void file_states(std::optional<bool> z_positive_up, std::string_view z_unit,
+                   std::string_view by = "as the file says");
   // Throws RowError (at 0) for a knot that has neither X and Y nor, where the survey is known, lines.
   void add(const Knot& knot);
   // The next knot without a number starts another stick. Called at blank lines and the like; calls before the
@@ -71,7 +73,8 @@ class StickCollector {
   double apart(const Knot& knot) const;
   void compare(const Knot& knot);
   void split_at_planes();
-  void apply_z_rule(std::optional<bool> z_positive_up, std::string_view z_unit);
+  void apply_z_rule(std::optional<bool> z_positive_up, std::string_view z_unit, std::string_view by);
+  void notice(std::string what);
 
   SticksOptions options_;
   SticksImport result_;
