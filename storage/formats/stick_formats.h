@@ -21,6 +21,8 @@ struct StickFormat {
   // The whole file as text; what the format cannot hold is changed and told in `renamed`. nullptr: only read.
   std::string (*write)(std::span<const Stick> sticks, const SticksWriteOptions& options,
                        std::vector<std::string>& renamed);
+  // The file has no room for names: it holds one fault, whose name is told when it is read.
+  bool one_fault = false;
 };
 
 std::span<const StickFormat> stick_formats();
@@ -30,7 +32,7 @@ const StickFormat& stick_format(std::string_view name);
 const StickFormat* recognise_sticks(std::string_view head);
 
 // Reads a file of the named format, or of the one that its content tells (empty name). Throws kNotFound, kIo,
-// kFormat, kUsage, kMemory above 1 GiB.
+// kUsage, kMemory above 1 GiB, and kFormat, saying what else the file is where that can be seen.
 SticksImport read_sticks(const std::filesystem::path& path, std::string_view format,
                          const SticksOptions& options);
 

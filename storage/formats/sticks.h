@@ -30,10 +30,13 @@ struct ColumnMap {
 };
 
 struct SticksOptions {
-  bool z_positive_up = false;  // the file's z is elevation: its sign is turned
-  double z_factor = 1;         // file z times this is z in the survey's vertical unit
-  std::string fault{};         // name of the fault where the file has no names; readers of paths put the
-                               // file's stem here if it is empty
+  // z as it is told, over what the file says of itself; unset: what the file says, or else positive down and
+  // in the survey's unit, which the report then lists as assumed.
+  std::optional<bool> z_positive_up{};  // true: z is elevation, and its sign is turned
+  std::string z_unit{};                 // "ms", "s", "m", "ft"; empty: not told
+  std::string vertical_unit{};          // the survey's, "ms", "m", "ft"; empty: no survey, z is not converted
+  std::string fault{};  // name of the fault where the file has no names; readers of paths put the
+                        // file's stem here if it is empty
   std::optional<ColumnMap> columns{};  // for format "columns"
   std::string layout{};                // text of the format file that a column file needs (Landmark)
   // Half a step between lines and samples, in X/Y and z units, for files that neither number their sticks nor
@@ -45,11 +48,14 @@ struct SticksOptions {
 struct SticksImport {
   std::vector<Stick> sticks{};
   ImportReport report{};
+  std::vector<std::string> notices{};  // what the user should look at, e.g. X/Y that contradict the lines
+  std::string format{};                // StickFormat::name; readers of one format leave it empty
 };
 
 // What writers need to know beside the sticks. Points come with z positive down in vertical_unit.
 struct SticksWriteOptions {
-  bool z_positive_up = false;
+  bool z_positive_up = false;         // turn the sign of z
+  bool names_without_blanks = false;  // write blanks in names as '_', for programs that split rows at blanks
   std::string horizontal_unit = "m";
   std::string vertical_unit = "m";           // of the z written: "ms", "s", "m", "ft"; told, not converted
   std::optional<survey::Geometry> survey{};  // for formats that state inline and crossline

@@ -33,6 +33,9 @@ void ExportChoice::add_to(CLI::App& command) {
   command.add_option("--run", run, "Statistics of this run (default: the last)");
   command.add_option("--z-positive", z_positive, "Turn z: up or down, whatever the format's default")
       ->check(CLI::IsMember({"up", "down"}));
+  command
+      .add_option("--z-unit", z_unit, "Unit of the z written: ms or s, m or ft (default: the survey's unit)")
+      ->check(CLI::IsMember({"ms", "s", "m", "ft"}));
 }
 
 void add_file(console::Output& output, const std::string& file) {

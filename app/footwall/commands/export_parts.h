@@ -14,6 +14,7 @@ struct ExportChoice {
   std::string fault;                // empty: all
   std::optional<std::int64_t> run;  // none: the last
   std::string z_positive;           // "up", "down" or empty: the format's default
+  std::string z_unit;               // "ms", "s", "m", "ft" or empty: the survey's vertical unit
 
   void add_to(CLI::App& command);
   bool z_up(bool otherwise) const { return z_positive.empty() ? otherwise : z_positive == "up"; }

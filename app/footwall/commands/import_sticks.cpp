@@ -17,8 +17,9 @@ struct SticksImport {
 
 console::Output import_sticks(const SticksImport& options) {
   project::Project project = open_project(options.project, project::OpenMode::kWrite);
-  const tasks::SticksImported done =
-      tasks::import_sticks(project, options.file, options.format, {options.z_up});
+  formats::SticksOptions how;
+  if (options.z_up) how.z_positive_up = true;
+  const tasks::SticksImported done = tasks::import_sticks(project, options.file, options.format, how);
   project.close();
   console::Output output;
   output.json = report_json(done.report);
