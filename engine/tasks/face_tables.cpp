@@ -10,6 +10,7 @@
 #include "engine/tasks/statistics.h"
 #include "engine/tasks/triangulate.h"
 #include "storage/base/error.h"
+#include "storage/formats/z_unit.h"
 #include "storage/survey/lattice.h"
 
 namespace footwall::tasks {
@@ -124,14 +125,26 @@ void note_units(FaceTables& out, const project::Project& project, const project:
   out.units = surface->units;
 }
 
+void turn_z_into(const std::string& unit, FaceTables& faces) {
+  const double factor = formats::z_unit_factor(faces.units.vertical, unit);
+  faces.units.vertical = unit;
+  if (factor == 1) return;
+  for (formats::MeshTable& table : faces.tables) {
+    for (survey::WorldPoint& p : table.vertices) p.z *= factor;
+  }
+}
+
 }  // namespace
 
 FaceTables face_tables(const project::Project& project, const std::string& fault,
-                       std::optional<std::int64_t> run, Coordinates coordinates) {
+                       std::optional<std::int64_t> run, Coordinates coordinates, const std::string& z_unit) {
   std::optional<survey::Geometry> survey = project.survey();
   if (coordinates == Coordinates::kIndex) survey = required_survey(project, "index space");
   FaceTables out;
-  if (survey) out.units = {survey->horizontal_unit, std::string(name_of(survey->vertical_unit))};
+  if (survey) {
+    out.crs = survey->crs;
+    out.units = {survey->horizontal_unit, std::string(name_of(survey->vertical_unit))};
+  }
   if (run || !project.runs().empty()) out.run = project.run(run);
   const std::vector<std::int64_t> in_run =
       out.run ? project.run_faults(out.run->id) : std::vector<std::int64_t>{};
@@ -148,6 +161,7 @@ FaceTables face_tables(const project::Project& project, const std::string& fault
       if (!survey) note_units(out, project, record);
     }
   }
+  if (coordinates == Coordinates::kWorld && !z_unit.empty()) turn_z_into(z_unit, out);
   return out;
 }
 

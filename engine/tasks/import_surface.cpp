@@ -7,7 +7,7 @@
 #include "engine/tasks/triangulate.h"
 #include "storage/base/error.h"
 #include "storage/formats/gocad_tsurf.h"
-#include "storage/formats/units.h"
+#include "storage/formats/z_unit.h"
 
 namespace footwall::tasks {
 namespace {
@@ -62,10 +62,10 @@ std::string convert(survey::Surface& surface, project::SurfaceUnits& units, cons
   const project::SurfaceUnits wanted{survey.horizontal_unit, std::string(name_of(survey.vertical_unit))};
   double across = 1, down = 1;
   try {
-    across = formats::unit_factor(units.horizontal, wanted.horizontal);
-    down = formats::unit_factor(units.vertical, wanted.vertical);
+    across = formats::z_unit_factor(units.horizontal, wanted.horizontal);
+    down = formats::z_unit_factor(units.vertical, wanted.vertical);
   } catch (const Error& error) {
-    throw Error(error.code(), fmt::format("surface {}: {}", surface.name, error.message()),
+    throw Error(ErrorCode::kInvalid, fmt::format("surface {}: {}", surface.name, error.message()),
                 "a file that declares a wrong unit is overridden by --z-unit; " + error.hint());
   }
   if (units == wanted) return {};

@@ -7,7 +7,7 @@
 
 #include "engine/mesh/surface_facts.h"
 #include "storage/base/error.h"
-#include "storage/formats/units.h"
+#include "storage/formats/z_unit.h"
 
 namespace footwall::tasks {
 namespace {
@@ -39,8 +39,8 @@ survey::Surface surface_in_survey(const project::Project& project, const project
   survey::Surface surface = project.surface(record.id);
   const auto survey = project.survey();
   if (!survey) return surface;
-  const double across = formats::unit_factor(record.units.horizontal, survey->horizontal_unit);
-  const double down = formats::unit_factor(record.units.vertical, name_of(survey->vertical_unit));
+  const double across = formats::z_unit_factor(record.units.horizontal, survey->horizontal_unit);
+  const double down = formats::z_unit_factor(record.units.vertical, name_of(survey->vertical_unit));
   if (across == 1 && down == 1) return surface;
   for (survey::WorldPoint& p : surface.vertices) p = {p.x * across, p.y * across, p.z * down};
   return surface;

@@ -8,7 +8,7 @@
 #include "engine/tasks/open_volume.h"
 #include "engine/tasks/triangulate.h"
 #include "storage/base/error.h"
-#include "storage/formats/units.h"
+#include "storage/formats/z_unit.h"
 #include "storage/volume/volume_reader.h"
 
 namespace footwall::tasks {
@@ -89,7 +89,7 @@ Json imported_json(const project::Project& project, const project::SurfaceRecord
   const auto& [horizontal, vertical] = record.units;
   const bool lengths = vertical == "m" || vertical == "ft";
   if (survey || !lengths) return facts_json(std::move(surface), survey);
-  const double factor = formats::unit_factor(vertical, horizontal);
+  const double factor = formats::z_unit_factor(vertical, horizontal);
   for (survey::WorldPoint& p : surface.vertices) p.z *= factor;
   Json facts = facts_json(surface, survey);
   facts["area"] = number(mesh::surface_facts(surface).area);

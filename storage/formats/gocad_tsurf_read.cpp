@@ -11,7 +11,7 @@
 #include "storage/base/text.h"
 #include "storage/formats/detail/utf8.h"
 #include "storage/formats/gocad_tsurf.h"
-#include "storage/formats/units.h"
+#include "storage/formats/z_unit.h"
 
 namespace footwall::formats::gocad_tsurf {
 namespace {
@@ -209,7 +209,7 @@ class Parser {
   void axis_units(std::string_view line) {
     const auto words = quoted_words(line);  // AXIS_UNIT x y z
     const auto unit = [&](std::size_t n) {
-      return n < words.size() ? unit_from(words[n]) : std::string_view{};
+      return n < words.size() ? z_unit_from(words[n]).value_or("") : std::string_view{};
     };
     if (unit(1) == unit(2)) object_.horizontal_unit = unit(1);
     object_.vertical_unit = unit(3);

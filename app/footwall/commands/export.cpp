@@ -13,16 +13,21 @@ struct Options {
   ExportChoice choice;
   ExportVolumes volumes;
   ExportFaces faces;
+  ExportPackage package;
 };
 
 console::Output run(const Options& options, const console::Console& console) {
-  if (!options.faces.asked() && !options.volumes.asked()) {
-    throw Error(ErrorCode::kUsage, "nothing to export", "name a file with --raw, --vtp, --tsurf or --csv");
+  options.package.check();
+  if (!options.faces.asked() && !options.volumes.asked() && !options.package.asked()) {
+    throw Error(
+        ErrorCode::kUsage, "nothing to export",
+        "name a file with --raw, --vtp, --tsurf or --csv, or a folder with --for petrel --out FOLDER");
   }
   const project::Project project = open_project(options.project, project::OpenMode::kRead);
-  console::Output output{{{"files", console::Json::array()}}, ""};
+  console::Output output{{{"files", console::Json::array()}, {"renamed", console::Json::array()}}, ""};
   if (options.volumes.asked()) options.volumes.run(project, console, output);
   if (options.faces.asked()) options.faces.run(project, options.choice, output);
+  if (options.package.asked()) options.package.run(project, options.choice, output);
   return output;
 }
 
@@ -43,6 +48,13 @@ void add_file(console::Output& output, const std::string& file) {
   output.text += "written " + file + "\n";
 }
 
+void add_renamed(console::Output& output, const std::vector<std::string>& renamed) {
+  for (const std::string& line : renamed) {
+    output.json["renamed"].push_back(line);
+    output.text += "renamed: " + line + "\n";
+  }
+}
+
 void add_export(console::Program& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add(nullptr, "export", "Write volumes and faces in other programs' formats",
@@ -50,6 +62,7 @@ void add_export(console::Program& program) {
   command->add_option("project", options->project, "The project, NAME.footwall")->required();
   options->volumes.add_to(*command);
   options->faces.add_to(*command);
+  options->package.add_to(*command);
   options->choice.add_to(*command);
 }
 
