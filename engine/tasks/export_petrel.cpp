@@ -97,6 +97,9 @@ PetrelExport export_petrel(const project::Project& project, const fs::path& fold
     throw Error(ErrorCode::kInvalid, "there are neither pillars nor faces to export",
                 "footwall import sticks, import surface and triangulate make them");
   }
+  const formats::StickFormat& charisma = formats::stick_format("charisma");
+  if (!sticks.empty() && charisma.write == nullptr)
+    throw Error(ErrorCode::kUnsupported, "this program does not write Charisma fault sticks");
   PetrelExport done;
   for (const std::string& name : faces.stale)
     done.notices.push_back(name + " was edited since this run: the run's faces are exported");
@@ -110,9 +113,6 @@ PetrelExport export_petrel(const project::Project& project, const fs::path& fold
 
   // 2. What the interpreter picked.
   if (!sticks.empty()) {
-    const formats::StickFormat& charisma = formats::stick_format("charisma");
-    if (charisma.write == nullptr)
-      throw Error(ErrorCode::kUnsupported, "this program does not write Charisma fault sticks");
     formats::SticksWriteOptions how;
     how.z_positive_up = options.z_positive_up;
     how.names_without_blanks = true;

@@ -57,6 +57,12 @@ project::SurfaceUnits units_of(const formats::gocad_tsurf::Object& object, const
   return units;
 }
 
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
 // Into the survey's units; returns what was done in words, empty where they are the same.
 std::string convert(survey::Surface& surface, project::SurfaceUnits& units, const survey::Geometry& survey) {
   const project::SurfaceUnits wanted{survey.horizontal_unit, std::string(name_of(survey.vertical_unit))};
@@ -70,8 +76,10 @@ std::string convert(survey::Surface& surface, project::SurfaceUnits& units, cons
   }
   if (units == wanted) return {};
   for (survey::WorldPoint& p : surface.vertices) p = {p.x * across, p.y * across, p.z * down};
-  std::string told = fmt::format("{} was converted: X, Y from {} to {}, z from {} to {}", surface.name,
-                                 units.horizontal, wanted.horizontal, units.vertical, wanted.vertical);
+  std::vector<std::string> steps;
+  if (across != 1) steps.push_back(fmt::format("X and Y from {} to {}", units.horizontal, wanted.horizontal));
+  if (down != 1) steps.push_back(fmt::format("z from {} to {}", units.vertical, wanted.vertical));
+  std::string told = fmt::format("{} was converted: {}", surface.name, listed(steps));
   units = wanted;
   return told;
 }
@@ -89,12 +97,6 @@ std::string outside_note(const survey::Surface& surface, const survey::Geometry&
   if (outside == 0) return {};
   return fmt::format("{} of {} vertices of {} lie outside the survey: check coordinates, unit and sign of z",
                      outside, surface.vertices.size(), surface.name);
-}
-
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
 }
 
 }  // namespace
