@@ -13,8 +13,8 @@ namespace footwall::formats {
 struct StickFormat {
   std::string_view name;   // as --format takes it
   std::string_view title;  // for people
-  // True if `head`, the first 64 KiB of a file, is of this format; asked in the table's order. nullptr: never
-  // told from the content.
+  // True if `head`, the whole rows in the first 64 KiB of a file, is of this format; asked in the table's
+  // order, after recognise_other(). nullptr: never told from the content.
   bool (*recognises)(std::string_view head);
   // The whole text. Throws kFormat where no row can be used.
   SticksImport (*parse)(std::string_view text, const SticksOptions& options);
@@ -35,5 +35,11 @@ const StickFormat* recognise_sticks(std::string_view head);
 // kUsage, kMemory above 1 GiB, and kFormat, saying what else the file is where that can be seen.
 SticksImport read_sticks(const std::filesystem::path& path, std::string_view format,
                          const SticksOptions& options);
+
+// Writes a file of the named format, whole or not at all; returns what had to be renamed. Throws kUsage for a
+// format that is only read, and for several faults where it holds one; kInvalid without sticks; kNotFound,
+// kIo as writing does.
+std::vector<std::string> write_sticks(const std::filesystem::path& path, std::string_view format,
+                                      std::span<const Stick> sticks, const SticksWriteOptions& options);
 
 }  // namespace footwall::formats

@@ -57,7 +57,7 @@ struct SticksWriteOptions {
   bool z_positive_up = false;         // turn the sign of z
   bool names_without_blanks = false;  // write blanks in names as '_', for programs that split rows at blanks
   std::string horizontal_unit = "m";
-  std::string vertical_unit = "m";           // of the z written: "ms", "s", "m", "ft"; told, not converted
+  std::string vertical_unit = "m";  // of the z written: "ms", "s", "m", "ft"; empty: not known (no survey)
   std::optional<survey::Geometry> survey{};  // for formats that state inline and crossline
 };
 

@@ -161,13 +161,18 @@ std::size_t StickCollector::stick_of(Fault& fault, const std::optional<std::int6
   return *fault.open;
 }
 
-void StickCollector::compare(const Knot& knot) {
+// Of a knot with X, Y and lines: how many lines they differ by.
+double StickCollector::apart(const Knot& knot) const {
   const survey::IndexPoint by_xy = options_.survey->index_of({(*knot.xy)[0], (*knot.xy)[1], 0});
   const survey::IndexPoint by_lines = index_of_lines(*options_.survey, (*knot.lines)[0], (*knot.lines)[1]);
-  const double apart = std::max(std::fabs(by_xy.i - by_lines.i), std::fabs(by_xy.j - by_lines.j));
-  if (!(apart > 1) || contradict_++ > 0) return;
+  return std::max(std::fabs(by_xy.i - by_lines.i), std::fabs(by_xy.j - by_lines.j));
+}
+
+void StickCollector::compare(const Knot& knot) {
+  const double lines = apart(knot);
+  if (!(lines > 1) || contradict_++ > 0) return;
   first_contradiction_ = fmt::format("first: X {} Y {} with inline {} and crossline {}, {:.1f} lines apart",
-                                     (*knot.xy)[0], (*knot.xy)[1], (*knot.lines)[0], (*knot.lines)[1], apart);
+                                     (*knot.xy)[0], (*knot.xy)[1], (*knot.lines)[0], (*knot.lines)[1], lines);
 }
 
 survey::WorldPoint StickCollector::placed(const Knot& knot, bool& in_line_numbers) {
@@ -181,9 +186,10 @@ survey::WorldPoint StickCollector::placed(const Knot& knot, bool& in_line_number
   }
   if (!knot.lines) throw RowError{0, "the row has no X and Y"};
   if (options_.survey) {
-    if (knot.xy) ++by_lines_;
     const survey::WorldPoint at =
         options_.survey->world_of(index_of_lines(*options_.survey, (*knot.lines)[0], (*knot.lines)[1]));
+    if (knot.xy && apart(knot) <= 1) return {0, 0, z};  // 0 0 is where it is
+    if (knot.xy) ++by_lines_;
     return {at.x, at.y, z};
   }
   if (knot.xy) {
@@ -288,14 +294,29 @@ std::string written_name(std::string_view name, std::string_view forbidden, bool
                          std::vector<std::string>& renamed) {
   std::string out;
   for (const char c : name) {
-    const bool bad = forbidden.find(c) != std::string_view::npos || (blanks && c == ' ');
-    out.push_back(bad ? '_' : c);
+    if (c == ' ' && out.ends_with(' ')) continue;
+    out.push_back(forbidden.find(c) != std::string_view::npos ? '_' : c);
   }
+  if (blanks) std::replace(out.begin(), out.end(), ' ', '_');
   if (out != name) {
     std::string line = fmt::format("{} -> {}", name, out);
     if (std::find(renamed.begin(), renamed.end(), line) == renamed.end()) renamed.push_back(std::move(line));
   }
   return out;
+}
+
+double written_z(double z, const SticksWriteOptions& options) {
+  return (options.z_positive_up ? -z : z) + 0.0;
+}
+
+std::array<std::int64_t, 2> nearest_lines(const survey::WorldPoint& point,
+                                          const SticksWriteOptions& options) {
+  if (!options.survey) return {0, 0};
+  const survey::IndexPoint at = options.survey->index_of(point);
+  constexpr double kFar = 2147483648.0;
+  if (!(std::fabs(at.i) < kFar && std::fabs(at.j) < kFar)) return {0, 0};
+  return {options.survey->inlines.line_of(std::llround(at.i)),
+          options.survey->crosslines.line_of(std::llround(at.j))};
 }
 
 }  // namespace footwall::formats::detail

@@ -42,6 +42,8 @@ class StickCollector {
   // The next knot without a number starts another stick. Called at blank lines and the like; calls before the
   // first knot, after the last, or one after another, do no harm.
   void end_stick() { stick_ended_ = true; }
+  // The format parts sticks by end_stick() and by nothing else, so that no plane is looked at.
+  void parted_by_blank_lines() { parted_ = true; }
   void skip() { ++result_.report.skipped; }
   void reject(std::int64_t line, const RowError& why);
   std::int64_t read() const { return result_.report.read; }
@@ -64,6 +66,7 @@ class StickCollector {
   Fault& fault_of(std::string_view name_in_file);
   std::size_t stick_of(Fault& fault, const std::optional<std::int64_t>& number);
   survey::WorldPoint placed(const Knot& knot, bool& in_line_numbers);
+  double apart(const Knot& knot) const;
   void compare(const Knot& knot);
   void split_at_planes();
   void apply_z_rule(std::optional<bool> z_positive_up, std::string_view z_unit);
@@ -85,8 +88,13 @@ class StickCollector {
 
 // Writers: `name` as it can stand in a file whose names must not hold the characters `forbidden`, which
 // become
-// '_'; told in `renamed`. With `blanks`, blanks are among them.
+// '_', and whose readers take runs of blanks for one; told in `renamed`. With `blanks`, blanks become '_'
+// too.
 std::string written_name(std::string_view name, std::string_view forbidden, bool blanks,
                          std::vector<std::string>& renamed);
+// z as it is written: with the sign asked for, and never "-0".
+double written_z(double z, const SticksWriteOptions& options);
+// The numbers of the lines nearest to a point, 0 0 without a survey and beyond 2^31 lines.
+std::array<std::int64_t, 2> nearest_lines(const survey::WorldPoint& point, const SticksWriteOptions& options);
 
 }  // namespace footwall::formats::detail

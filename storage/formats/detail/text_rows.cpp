@@ -46,6 +46,15 @@ bool Rows::next() {
   return true;
 }
 
+std::vector<std::string_view> first_rows(std::string_view head, std::size_t limit) {
+  std::vector<std::string_view> found;
+  for (Rows rows(head); found.size() < limit && rows.next();) {
+    const std::string_view row = text::trimmed(rows.row());
+    if (!row.empty() && !is_comment(row)) found.push_back(row);
+  }
+  return found;
+}
+
 void split_fields(std::string_view row, char delimiter, std::vector<Field>& fields) {
   fields.clear();
   std::size_t at = 0;

@@ -32,6 +32,9 @@ class Rows {
   char end_ = '\n';
 };
 
+// The first `limit` rows that are neither blank nor comments, trimmed: what recognisers look at.
+std::vector<std::string_view> first_rows(std::string_view head, std::size_t limit = 50);
+
 struct Field {
   std::string_view text;  // trimmed, without quotes
   std::size_t at = 0;     // bytes from the row's start

@@ -4,6 +4,7 @@
 
 #include "scratch_folder.h"
 #include "storage/base/error.h"
+#include "storage/formats/stick_formats.h"
 
 namespace footwall::formats::charisma {
 namespace {
@@ -101,7 +102,7 @@ TEST(Charisma, AFileWithoutSticksIsRefusedWithTheFirstReason) {
   const ScratchFolder folder;
   const auto path = folder.file("h.dat", "INLINE :10 XLINE :20 1 2 3\nINLINE :10 XLINE :21 1 2 3\n");
   try {
-    read(path);
+    read_sticks(path, "", {});
     FAIL() << "was read";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kFormat);
@@ -110,7 +111,7 @@ TEST(Charisma, AFileWithoutSticksIsRefusedWithTheFirstReason) {
   }
   EXPECT_THROW(parse(""), Error);
   EXPECT_THROW(parse(std::string("\0\xFF\xFE garbage \n\n\n", 14)), Error);
-  EXPECT_THROW(read(folder / "none"), Error);
+  EXPECT_THROW(read_sticks(folder / "none", "", {}), Error);
 }
 
 TEST(Charisma, ManyRejectsAreCountedButNotAllKept) {
