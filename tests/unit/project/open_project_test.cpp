@@ -169,6 +169,30 @@ TEST_F(OpenProject, MigrationsRunForwardAfterABackupAndKeepUndo) {
   EXPECT_EQ(error_of([&] { Project::open(path_, OpenMode::kWrite); }).code(), ErrorCode::kUnsupported);
 }
 
+TEST_F(OpenProject, AProjectOfVersionOneGetsSurfacesThatBelongToFaults) {
+  const survey::Surface surface{"S", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  {
+    auto project = Project::create(path_, {});
+    project.edit("import", [&](Interpretation& it) { it.add_surface(surface, "test"); });
+    project.edit("remove", [&](Interpretation& it) { it.delete_surface(1); });
+  }
+  // As version 1 had it, also in the log: a changeset of a table with fewer columns.
+  tamper(
+      "ALTER TABLE surface DROP COLUMN vertical_unit; ALTER TABLE surface DROP COLUMN horizontal_unit;"
+      "ALTER TABLE surface DROP COLUMN fault; DELETE FROM edit; PRAGMA user_version = 1");
+  {
+    auto project = Project::open(path_, OpenMode::kWrite);
+    EXPECT_EQ(project.schema_version(), 2);
+    ASSERT_EQ(project.notices().size(), 1U);
+    EXPECT_NE(project.notices()[0].find("from schema version 1 to 2"), std::string::npos);
+    project.edit("import again", [&](Interpretation& it) {
+      it.add_surface(surface, "test", it.add_fault("F"), {"ft", "s"});
+    });
+    EXPECT_EQ(project.surfaces().at(0).units, (SurfaceUnits{"ft", "s"}));
+  }
+  EXPECT_TRUE(std::filesystem::exists(path_.string() + ".backup-v1"));
+}
+
 TEST_F(OpenProject, AMigrationThatChangesMoreEndsTheHistory) {
   {
     auto project = Project::create(path_, {});
