@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -185,7 +186,9 @@ class Parser {
     if (count) skip();
     std::string_view content = text::trimmed(line);
     if (content.starts_with('{')) content = text::trimmed(content.substr(1));
-    const bool ends = content.ends_with('}');
+    // "name:F1 }" ends the block, the name "F {1}" does not.
+    const bool ends = content.ends_with('}') && std::count(content.begin(), content.end(), '}') >
+                                                    std::count(content.begin(), content.end(), '{');
     if (ends) content = text::trimmed(content.substr(0, content.size() - 1));
     if (content.starts_with('*')) content.remove_prefix(1);
     if (const auto name = value_of(content, "name"); in_header_ && name)

@@ -124,6 +124,14 @@ TEST(GocadTsurf, WhatIsToldOfZOverridesTheFile) {
   EXPECT_EQ(parse(with_line("ZPOSITIVE Sideways\n")).report.rejected.size(), 1u);
 }
 
+TEST(GocadTsurf, HeadersEndWhereTheirBraceCloses) {
+  for (const char* header :
+       {"HEADER {name:F {1}}\n", "HEADER {\nname:F {1}\n}\n", "HEADER\n{\nname: F {1} }\n",
+        "HEADER {\n*name:F {1}\nname2:x\n}\n", "HEADER { name:F {1}\n}\n"}) {
+    EXPECT_EQ(parse(with_line(header)).objects.at(0).surface.name, "F {1}") << header;
+  }
+}
+
 TEST(GocadTsurf, IdsMayBeAnything) {
   const ReadResult read = parse(
       "GOCAD TSurf 1\nZPOSITIVE Depth\nVRTX 9000000000000000000 1 0 0\nVRTX -9000000000000000000 2 0 0\nVRTX "
