@@ -141,6 +141,10 @@ json change_fault(Interpretation& picks, const std::string& verb, Fields& fields
                              value.is_string() ? value.get<std::string>() : value.dump());
   } else if (verb == "move") {
     const WorldPoint by = shift(fields);
+    if (picks.surface_of(fault)) {
+      throw Error(ErrorCode::kInvalid, "the fault is an imported surface: it stays where its file has it",
+                  "import it again with other coordinates");
+    }
     for (const survey::Pillar& pillar : picks.pillars(fault)) {
       if (pillar.kind != survey::PillarKind::kInterpolated) picks.move_pillar(pillar.id, by);
     }

@@ -6,9 +6,11 @@
 #include <map>
 #include <unordered_map>
 
+#include "engine/tasks/imported_surface.h"
 #include "engine/tasks/statistics.h"
 #include "engine/tasks/triangulate.h"
 #include "storage/base/error.h"
+#include "storage/formats/z_unit.h"
 #include "storage/survey/lattice.h"
 
 namespace footwall::tasks {
@@ -23,22 +25,36 @@ struct LatticeHash {
 };
 
 // "3-7.12": face 12 of the strip between pillars 3 and 7 (pillars::pair_id); "cell 8f2e....12" in a tied
-// network.
+// network; "1.12" in the first piece of an imported surface.
 std::string face_id(std::int64_t panel, std::int32_t n) {
   constexpr int kPillarBits = 31;
   if (panel < 0) return fmt::format("cell {:x}.{}", static_cast<std::uint64_t>(panel), n);
+  if (panel >> kPillarBits == 0) return fmt::format("{}.{}", panel, n);
   return fmt::format("{}-{}.{}", panel >> kPillarBits, panel & ((std::int64_t{1} << kPillarBits) - 1), n);
+}
+
+// The mesh as picked, or as the file of an imported surface has it.
+void fill_world(formats::MeshTable& table, const project::Project& project, const project::FaultRecord& fault,
+                const project::MeshRecord& mesh) {
+  const auto imported = is_imported(mesh) ? project.surface_of(fault.id) : std::nullopt;
+  if (imported && mesh.faces.size() == static_cast<std::size_t>(imported->triangles)) {
+    survey::Surface surface = surface_in_survey(project, *imported);
+    table.vertices = std::move(surface.vertices);
+    table.triangles = std::move(surface.triangles);
+    return;
+  }
+  for (const project::MeshVertex& vertex : mesh.vertices) table.vertices.push_back(vertex.position);
+  for (const project::MeshFace& face : mesh.faces) table.triangles.push_back(face.vertices);
 }
 
 // The run's own triangles, welded by lattice position; the picked positions while the mesh is that of the
 // run.
-void fill_shape(formats::MeshTable& table, const project::FaultRun& run,
-                const std::optional<project::MeshRecord>& mesh, const survey::Lattice& lattice,
-                Coordinates coordinates) {
+void fill_shape(formats::MeshTable& table, const project::Project& project, const project::FaultRecord& fault,
+                const project::FaultRun& run, const survey::Lattice& lattice, Coordinates coordinates) {
+  const auto mesh = project.mesh(fault.id);
   const bool same_mesh = mesh && mesh->revision == run.revision && mesh->faces.size() == run.lattice.size();
   if (same_mesh && coordinates == Coordinates::kWorld) {
-    for (const project::MeshVertex& vertex : mesh->vertices) table.vertices.push_back(vertex.position);
-    for (const project::MeshFace& face : mesh->faces) table.triangles.push_back(face.vertices);
+    fill_world(table, project, fault, *mesh);
   } else {
     std::unordered_map<survey::LatticePoint, std::int32_t, LatticeHash> known;
     for (const survey::LatticeTriangle& triangle : run.lattice) {
@@ -64,7 +80,7 @@ formats::MeshTable of_run(const project::Project& project, const project::FaultR
                           Coordinates coordinates) {
   formats::MeshTable table;
   table.fault = fault.name;
-  fill_shape(table, run, project.mesh(fault.id), lattice, coordinates);
+  fill_shape(table, project, fault, run, lattice, coordinates);
   // Known statistics come in their usual order, others behind them.
   std::map<std::string, std::vector<double>> left = run.statistics;
   for (const project::StatisticRecord& known : stored_statistics()) {
@@ -77,31 +93,58 @@ formats::MeshTable of_run(const project::Project& project, const project::FaultR
   return table;
 }
 
-formats::MeshTable of_mesh(const project::FaultRecord& fault, const project::MeshRecord& mesh,
-                           const survey::Lattice& lattice, Coordinates coordinates) {
+// lattice: none for world coordinates.
+formats::MeshTable of_mesh(const project::Project& project, const project::FaultRecord& fault,
+                           const project::MeshRecord& mesh, const std::optional<survey::Lattice>& lattice) {
   formats::MeshTable table;
   table.fault = fault.name;
-  for (const project::MeshVertex& vertex : mesh.vertices) {
-    if (coordinates == Coordinates::kWorld) {
-      table.vertices.push_back(vertex.position);
-    } else {
-      const survey::IndexPoint p = survey::Lattice::index_of(lattice.from_world(vertex.position));
+  if (!lattice) {
+    fill_world(table, project, fault, mesh);
+  } else {
+    for (const project::MeshVertex& vertex : mesh.vertices) {
+      const survey::IndexPoint p = survey::Lattice::index_of(lattice->from_world(vertex.position));
       table.vertices.push_back({p.i, p.j, p.k});
     }
+    for (const project::MeshFace& face : mesh.faces) table.triangles.push_back(face.vertices);
   }
-  for (const project::MeshFace& face : mesh.faces) {
-    table.triangles.push_back(face.vertices);
-    table.face_ids.push_back(face_id(face.panel, face.n));
-  }
+  for (const project::MeshFace& face : mesh.faces) table.face_ids.push_back(face_id(face.panel, face.n));
   return table;
+}
+
+// Without a survey every surface keeps its file's units; one file can hold one of them.
+void note_units(FaceTables& out, const project::Project& project, const project::FaultRecord& fault) {
+  const auto surface = project.surface_of(fault.id);
+  if (!surface) return;
+  if (out.tables.size() > 1 && surface->units != out.units) {
+    throw Error(ErrorCode::kInvalid,
+                fmt::format("fault {} is in {} and {}, others are in {} and {}, and there is no survey",
+                            fault.name, surface->units.horizontal, surface->units.vertical,
+                            out.units.horizontal, out.units.vertical),
+                "choose one with --fault");
+  }
+  out.units = surface->units;
+}
+
+void turn_z_into(const std::string& unit, FaceTables& faces) {
+  const double factor = formats::z_unit_factor(faces.units.vertical, unit);
+  faces.units.vertical = unit;
+  if (factor == 1) return;
+  for (formats::MeshTable& table : faces.tables) {
+    for (survey::WorldPoint& p : table.vertices) p.z *= factor;
+  }
 }
 
 }  // namespace
 
 FaceTables face_tables(const project::Project& project, const std::string& fault,
-                       std::optional<std::int64_t> run, Coordinates coordinates) {
-  const survey::Lattice lattice(required_survey(project, "a face table"));
+                       std::optional<std::int64_t> run, Coordinates coordinates, const std::string& z_unit) {
+  std::optional<survey::Geometry> survey = project.survey();
+  if (coordinates == Coordinates::kIndex) survey = required_survey(project, "index space");
   FaceTables out;
+  if (survey) {
+    out.crs = survey->crs;
+    out.units = {survey->horizontal_unit, std::string(name_of(survey->vertical_unit))};
+  }
   if (run || !project.runs().empty()) out.run = project.run(run);
   const std::vector<std::int64_t> in_run =
       out.run ? project.run_faults(out.run->id) : std::vector<std::int64_t>{};
@@ -110,11 +153,15 @@ FaceTables face_tables(const project::Project& project, const std::string& fault
       if (std::find(in_run.begin(), in_run.end(), record.id) == in_run.end()) continue;
       const project::FaultRun stored = project.fault_statistics(out.run->id, record.id);
       if (stored.revision != record.revision) out.stale.push_back(record.name);
-      out.tables.push_back(of_run(project, record, stored, lattice, coordinates));
+      out.tables.push_back(of_run(project, record, stored, survey::Lattice(*survey), coordinates));
     } else if (const auto mesh = project.mesh(record.id)) {
-      out.tables.push_back(of_mesh(record, *mesh, lattice, coordinates));
+      out.tables.push_back(of_mesh(
+          project, record, *mesh,
+          coordinates == Coordinates::kIndex ? std::optional<survey::Lattice>(*survey) : std::nullopt));
+      if (!survey) note_units(out, project, record);
     }
   }
+  if (coordinates == Coordinates::kWorld && !z_unit.empty()) turn_z_into(z_unit, out);
   return out;
 }
 

@@ -18,13 +18,19 @@ struct FaceTables {
   std::vector<formats::MeshTable> tables;
   std::optional<project::RunRecord> run;  // none: no run yet, and so no statistics
   std::vector<std::string> stale;         // faults edited since the run: their faces are those of the run
+  project::SurfaceUnits
+      units;        // of world coordinates: the survey's, else the imported surfaces'; z as asked for
+  std::string crs;  // the survey's
 };
 
 // fault: empty for all. run: none for the last. Faults of a run that are no longer in the project are left
-// out. Without any run the present meshes come without statistics. Throws kNotFound for names and runs that
-// are not there.
+// out. Without any run the present meshes come without statistics. World coordinates need no survey. An
+// imported surface comes with the vertices of its file, not with those at which it was cut. Throws kNotFound
+// for names and runs that are not there, kUsage for a z_unit of the other domain (empty: as stored), kInvalid
+// where surfaces without a survey are in different units.
 FaceTables face_tables(const project::Project& project, const std::string& fault,
-                       std::optional<std::int64_t> run, Coordinates coordinates);
+                       std::optional<std::int64_t> run, Coordinates coordinates,
+                       const std::string& z_unit = {});
 
 // Faces with at least `least_count` samples and a defined value, by rising (or falling) value; ties by order.
 struct RankedFace {

@@ -8,6 +8,7 @@
 #include "engine/tasks/open_volume.h"
 #include "engine/tasks/triangulate.h"
 #include "storage/base/error.h"
+#include "storage/formats/z_unit.h"
 #include "storage/volume/volume_reader.h"
 
 namespace footwall::tasks {
@@ -81,13 +82,33 @@ survey::Surface surface_of(const project::MeshRecord& mesh) {
   return surface;
 }
 
+// Without a survey a surface knows its own units.
+Json imported_json(const project::Project& project, const project::SurfaceRecord& record,
+                   const std::optional<survey::Geometry>& survey) {
+  survey::Surface surface = project.surface(record.id);
+  const auto& [horizontal, vertical] = record.units;
+  const bool lengths = vertical == "m" || vertical == "ft";
+  if (survey || !lengths) return facts_json(std::move(surface), survey);
+  const double factor = formats::z_unit_factor(vertical, horizontal);
+  for (survey::WorldPoint& p : surface.vertices) p.z *= factor;
+  Json facts = facts_json(surface, survey);
+  facts["area"] = number(mesh::surface_facts(surface).area);
+  return facts;
+}
+
 Json faults_json(const project::Project& project) {
   const std::optional<survey::Geometry> survey = project.survey();
   Json faults = Json::array();
   for (const project::FaultRecord& fault : project.faults()) {
     Json row = {{"name", fault.name}, {"pillars", project.pillars(fault.id).size()}};
-    const auto mesh = project.mesh(fault.id);
-    row.update(facts_json(mesh ? surface_of(*mesh) : survey::Surface{}, survey));
+    const auto imported = project.surface_of(fault.id);
+    row["surface"] = imported ? Json(imported->kind) : Json();
+    if (imported) {  // as it was imported; its mesh may be cut
+      row.update(imported_json(project, *imported, survey));
+    } else {
+      const auto mesh = project.mesh(fault.id);
+      row.update(facts_json(mesh ? surface_of(*mesh) : survey::Surface{}, survey));
+    }
     row["stale"] = project.mesh_is_stale(fault.id);
     faults.push_back(std::move(row));
   }
@@ -126,7 +147,10 @@ Json project_facts(const project::Project& project, bool verify, const JobContex
   facts["surfaces"] = Json::array();
   for (const project::SurfaceRecord& surface : project.surfaces()) {
     Json row = {{"name", surface.name}, {"kind", surface.kind}};
-    row.update(facts_json(project.surface(surface.id), survey));
+    row["fault"] = surface.fault == 0 ? Json() : Json(project.fault(surface.fault).name);
+    row["horizontal_unit"] = surface.units.horizontal;
+    row["vertical_unit"] = surface.units.vertical;
+    row.update(imported_json(project, surface, survey));
     facts["surfaces"].push_back(std::move(row));
   }
   facts["truth"] = Json::array();
@@ -150,6 +174,13 @@ Json project_facts(const project::Project& project, bool verify, const JobContex
   facts["verified"] = verify && facts["missing"].empty();
   return facts;
 }
+
+namespace {
+Json imported_counts(const std::optional<project::SurfaceRecord>& surface) {
+  if (!surface) return {};
+  return {{"kind", surface->kind}, {"vertices", surface->vertices}, {"triangles", surface->triangles}};
+}
+}  // namespace
 
 Json fault_list(const project::Project& project, const std::string& fault) {
   const std::optional<survey::Geometry> survey = project.survey();
@@ -183,6 +214,7 @@ Json fault_list(const project::Project& project, const std::string& fault) {
                       {"note", record.note},
                       {"modified", record.modified},
                       {"locked", record.locked},
+                      {"surface", imported_counts(project.surface_of(record.id))},
                       {"pillars", std::move(pillars)}});
   }
   return {{"faults", std::move(faults)}};

@@ -6,6 +6,7 @@
 
 #include "engine/pillars/interpolate.h"
 #include "engine/pillars/triangulate.h"
+#include "engine/tasks/imported_surface.h"
 #include "storage/base/error.h"
 
 namespace footwall::tasks {
@@ -80,6 +81,20 @@ project::MeshRecord mesh_record(const survey::Geometry& survey, const project::F
   return record;
 }
 
+// A fault that is an imported surface has its triangles already.
+Triangulated adopt_surface(project::Project& project, const project::FaultRecord& fault,
+                           const project::SurfaceRecord& record) {
+  Triangulated done;
+  done.fault = fault.name;
+  survey::Surface surface = surface_in_survey(project, record);
+  surface.name = fault.name;
+  const project::MeshRecord mesh = imported_mesh(surface, fault.revision, done.notes);
+  project.store_mesh(fault.id, mesh);
+  done.vertices = static_cast<std::int64_t>(mesh.vertices.size());
+  done.faces = static_cast<std::int64_t>(mesh.faces.size());
+  return done;
+}
+
 }  // namespace
 
 survey::Geometry required_survey(const project::Project& project, std::string_view what) {
@@ -100,6 +115,7 @@ std::vector<project::FaultRecord> chosen_faults(const project::Project& project,
 
 Triangulated triangulate_fault(project::Project& project, const project::FaultRecord& fault,
                                const TriangulateOptions& options, const JobContext& job) {
+  if (const auto surface = project.surface_of(fault.id)) return adopt_surface(project, fault, *surface);
   const survey::Geometry survey = required_survey(project, "triangulation");
   const std::vector<survey::Pillar> stored = project.pillars(fault.id);
   try {
@@ -116,6 +132,11 @@ Triangulated triangulate_fault(project::Project& project, const project::FaultRe
 
 std::int64_t interpolate_fault(project::Project& project, const project::FaultRecord& fault,
                                const InterpolateOptions& options, const JobContext& job) {
+  if (project.surface_of(fault.id)) {
+    throw Error(ErrorCode::kInvalid,
+                fmt::format("fault {} is an imported surface: there are no pillars to interpolate between",
+                            fault.name));
+  }
   const survey::Geometry survey = required_survey(project, "interpolation");
   std::vector<survey::Pillar> picked = project.pillars(fault.id);
   std::vector<std::int64_t> former;

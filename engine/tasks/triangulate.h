@@ -23,8 +23,9 @@ struct Triangulated {
   std::vector<std::string> notes;  // mis-ties, reversed pillars
 };
 
-// Triangulates one fault, whatever its state. Throws kInvalid without a survey, or naming the pillars that
-// cannot be made a surface.
+// Triangulates one fault, whatever its state; one that is an imported surface gets that surface's triangles,
+// cut where they are not manifold. Throws kInvalid without a survey, or naming the pillars that cannot be
+// made a surface.
 Triangulated triangulate_fault(project::Project& project, const project::FaultRecord& fault,
                                const TriangulateOptions& options, const JobContext& job);
 

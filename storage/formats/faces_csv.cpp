@@ -32,10 +32,16 @@ std::vector<std::string> columns_of(std::span<const MeshTable> meshes) {
 }
 
 template <class Put>
-void print_rows(std::span<const MeshTable> meshes, const Put& put) {
+void print_rows(std::span<const MeshTable> meshes, const std::optional<Declared>& declared, const Put& put) {
+  const bool up = declared && declared->z_positive_up;
+  const std::string told =
+      declared ? fmt::format(",{},{},{},{}", quoted(declared->horizontal_unit),
+                             quoted(declared->vertical_unit), up ? "up" : "down", quoted(declared->crs))
+               : "";
   const std::vector<std::string> columns = columns_of(meshes);
   std::string line = "fault,face,x0,y0,z0,x1,y1,z1,x2,y2,z2";
   for (const std::string& column : columns) line += ',' + quoted(column);
+  if (declared) line += ",xy_unit,z_unit,z_positive,crs";
   put(line += '\n');
   for (const MeshTable& mesh : meshes) {
     check(mesh);
@@ -51,27 +57,29 @@ void print_rows(std::span<const MeshTable> meshes, const Put& put) {
       line = fault + ',' + quoted(mesh.face_ids[face]);
       for (const std::int32_t vertex : mesh.triangles[face]) {
         const survey::WorldPoint& p = mesh.vertices[static_cast<std::size_t>(vertex)];
-        for (const double coordinate : {p.x, p.y, p.z}) line += ',' + text::shortest(coordinate);
+        for (const double coordinate : {p.x, p.y, up ? 0.0 - p.z : p.z})
+          line += ',' + text::shortest(coordinate);
       }
       for (const FaceStatistic* statistic : values) {
         line += ',';
         if (statistic != nullptr) line += text::shortest(statistic->values[face]);
       }
-      put(line += '\n');
+      put((line += told) += '\n');
     }
   }
 }
 
 }  // namespace
 
-void write(const std::filesystem::path& path, std::span<const MeshTable> meshes) {
+void write(const std::filesystem::path& path, std::span<const MeshTable> meshes,
+           const std::optional<Declared>& declared) {
   detail::OutputFile out(path);
-  print_rows(meshes, [&](const std::string& line) { out.write(line); });
+  print_rows(meshes, declared, [&](const std::string& line) { out.write(line); });
   out.commit();
 }
 
 void print(std::ostream& out, std::span<const MeshTable> meshes) {
-  print_rows(meshes, [&](const std::string& line) { out << line; });
+  print_rows(meshes, {}, [&](const std::string& line) { out << line; });
 }
 
 }  // namespace footwall::formats::faces_csv

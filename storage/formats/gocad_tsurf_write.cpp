@@ -12,14 +12,17 @@ namespace {
 
 constexpr int kNoData = -99999;
 
-// Names stand on one line, and in property lists between blanks.
-std::string one_line(std::string text) {
+// Names stand on one line; a brace would end the header.
+std::string header_name(std::string text) {
   for (char& letter : text) {
     if (static_cast<unsigned char>(letter) < 0x20) letter = ' ';
+    if (letter == '{') letter = '(';
+    if (letter == '}') letter = ')';
   }
   return text;
 }
 
+// Property names stand between blanks.
 std::string one_word(std::string text) {
   for (char& letter : text) {
     if (static_cast<unsigned char>(letter) <= 0x20) letter = '_';
@@ -77,7 +80,7 @@ void write_properties(detail::OutputFile& out, const std::vector<std::string>& n
 }
 
 void write_object(detail::OutputFile& out, const MeshTable& mesh, const WriteOptions& options) {
-  out.print("GOCAD TSurf 1\nHEADER {{\nname:{}\n}}\n", one_line(mesh.fault));
+  out.print("GOCAD TSurf 1\nHEADER {{\nname:{}\n}}\n", header_name(mesh.fault));
   write_axes(out, options);
   if (!options.strict) out.write("GEOLOGICAL_TYPE fault\n");
   write_properties(out, options.properties);
@@ -91,7 +94,7 @@ void write_object(detail::OutputFile& out, const MeshTable& mesh, const WriteOpt
                   fmt::format("vertex {} of fault {} has no position", n + 1, mesh.fault));
     }
     out.print("{} {} {:.6f} {:.6f} {:.6f}", properties.empty() ? "VRTX" : "PVRTX", n + 1, p.x, p.y,
-              options.z_positive_up ? -p.z : p.z);
+              options.z_positive_up ? 0.0 - p.z : p.z);
     for (const auto& values : properties) {
       std::isfinite(values[n]) ? out.print(" {}", values[n]) : out.print(" {}", kNoData);
     }
@@ -103,17 +106,24 @@ void write_object(detail::OutputFile& out, const MeshTable& mesh, const WriteOpt
 
 }  // namespace
 
-void write(const std::filesystem::path& path, std::span<const MeshTable> meshes,
-           const WriteOptions& options) {
+std::vector<std::string> write(const std::filesystem::path& path, std::span<const MeshTable> meshes,
+                               const WriteOptions& options) {
   if (options.strict && !options.properties.empty()) {
     throw Error(ErrorCode::kInvalid, "the strict TSurf form has no properties", "leave one of the two out");
   }
+  std::vector<std::string> renamed;
+  const auto tell = [&](const std::string& wanted, const std::string& held) {
+    if (wanted != held) renamed.push_back(wanted + " -> " + held);
+  };
   detail::OutputFile out(path);
   for (const MeshTable& mesh : meshes) {
     check(mesh);
     write_object(out, mesh, options);
+    tell(mesh.fault, header_name(mesh.fault));
   }
   out.commit();
+  for (const std::string& property : options.properties) tell(property, one_word(property));
+  return renamed;
 }
 
 }  // namespace footwall::formats::gocad_tsurf

@@ -123,8 +123,9 @@ void write(const std::filesystem::path& path, std::span<const MeshTable> meshes,
     for (const std::string& id : mesh.face_ids) face_ids.push_back(without_zeros(id));
   }
   const std::vector<std::string> statistics = statistic_names(meshes);
-  const std::vector<std::string> facts{options.vertical_unit, up ? "up" : "down", without_zeros(options.crs)};
-  constexpr const char* kFactNames[] = {"vertical_unit", "z_positive", "crs"};
+  const std::vector<std::string> facts{options.horizontal_unit, options.vertical_unit, up ? "up" : "down",
+                                       without_zeros(options.crs)};
+  constexpr const char* kFactNames[] = {"horizontal_unit", "vertical_unit", "z_positive", "crs"};
 
   Document file(path);
   file.xml(
@@ -159,7 +160,7 @@ void write(const std::filesystem::path& path, std::span<const MeshTable> meshes,
   for (const std::string& fact : facts) put_strings({fact});
   file.begin_array(points * 3 * sizeof(double));
   for (const MeshTable& mesh : meshes) {
-    for (const survey::WorldPoint& p : mesh.vertices) file.put(std::array{p.x, p.y, up ? -p.z : p.z});
+    for (const survey::WorldPoint& p : mesh.vertices) file.put(std::array{p.x, p.y, up ? 0.0 - p.z : p.z});
   }
   file.begin_array(faces * 3 * sizeof(std::int64_t));
   std::int64_t first = 0;

@@ -15,7 +15,8 @@ enum class ZAxis : std::uint8_t {
 
 struct Options {
   ZAxis z_axis = ZAxis::kUp;
-  std::string vertical_unit = "m";  // "ms", "m", "ft"; goes with crs into the file's field data
+  std::string horizontal_unit = "m";  // the units and crs go into the file's field data
+  std::string vertical_unit = "m";    // "ms", "s", "m", "ft"; told, not converted
   std::string crs;
 };
 

@@ -86,6 +86,13 @@ void write_nodes(detail::EditState& state, survey::Pillar& pillar,
   end_change(state, pillar.id);
 }
 
+void refuse_pillars_on_surface(const detail::EditState& state, const FaultRecord& fault) {
+  if (!state.surfaces.of_fault(fault.id)) return;
+  throw Error(ErrorCode::kInvalid,
+              fmt::format("fault '{}' is an imported surface and takes no pillars", fault.name),
+              "pick them on a fault of their own");
+}
+
 void check_links(const detail::EditState& state, std::int64_t fault, const survey::Pillar& pillar) {
   if (pillar.kind != PillarKind::kInterpolated) {
     if (pillar.parent_a == 0 && pillar.parent_b == 0) return;
@@ -153,6 +160,7 @@ void Interpretation::rename_fault(std::int64_t fault, const std::string& name) {
 
 void Interpretation::delete_fault(std::int64_t fault) {
   state_.editable(fault);
+  if (const auto surface = state_.surfaces.of_fault(fault)) state_.surfaces.remove(surface->id);
   state_.faults.remove(fault);
 }
 
@@ -196,7 +204,7 @@ survey::Pillar Interpretation::add_pillar(std::int64_t fault, PillarKind kind,
 }
 
 survey::Pillar Interpretation::add_pillar(std::int64_t fault, const survey::Pillar& given) {
-  state_.editable(fault);
+  refuse_pillars_on_surface(state_, state_.editable(fault));
   survey::Pillar pillar = given;
   if (pillar.nodes.empty()) throw Error(ErrorCode::kInvalid, "a pillar needs at least one node");
   for (const survey::PillarNode& node : pillar.nodes) detail::check_position(node.position);
@@ -307,12 +315,29 @@ void check_free_surface(const detail::EditState& state, const std::string& name)
 }
 }  // namespace
 
-std::int64_t Interpretation::add_surface(const survey::Surface& surface, const std::string& kind) {
+std::int64_t Interpretation::add_surface(const survey::Surface& surface, const std::string& kind,
+                                         std::int64_t fault_id, const SurfaceUnits& units) {
   state_.require_open();
   check_free_surface(state_, surface.name);
-  const std::int64_t id = state_.ids.next("surface");
-  state_.surfaces.insert(id, surface, kind);
-  return id;
+  if (fault_id != 0) {
+    const FaultRecord fault = state_.editable(fault_id);
+    if (!state_.faults.pillars(fault.id).empty() || state_.surfaces.of_fault(fault.id)) {
+      throw Error(ErrorCode::kInvalid, fmt::format("fault '{}' has a shape already", fault.name),
+                  "give the surface a fault of its own");
+    }
+    state_.reshaped(fault.id);
+  }
+  SurfaceRecord record;
+  record.id = state_.ids.next("surface");
+  record.kind = kind;
+  record.fault = fault_id;
+  record.units = units;
+  state_.surfaces.insert(surface, record);
+  return record.id;
+}
+
+std::optional<SurfaceRecord> Interpretation::surface_of(std::int64_t fault) const {
+  return state_.surfaces.of_fault(fault);
 }
 
 void Interpretation::rename_surface(std::int64_t surface, const std::string& name) {
@@ -324,6 +349,10 @@ void Interpretation::rename_surface(std::int64_t surface, const std::string& nam
 
 void Interpretation::delete_surface(std::int64_t surface) {
   state_.require_open();
+  if (const std::int64_t fault = state_.surfaces.find(surface).fault; fault != 0) {
+    state_.editable(fault);
+    state_.reshaped(fault);
+  }
   state_.surfaces.remove(surface);
 }
 

@@ -11,6 +11,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -73,8 +74,12 @@ class Interpretation {
   // Refuses a pillar's last node: delete the pillar instead.
   void delete_node(std::int64_t node);
 
-  // Imported surfaces.
-  std::int64_t add_surface(const survey::Surface& surface, const std::string& kind);
+  // Imported surfaces. One with `fault` is that fault's shape: the fault must have no pillars and no other
+  // surface; it then takes no pillars, and deleting it deletes the surface.
+  std::int64_t add_surface(const survey::Surface& surface, const std::string& kind, std::int64_t fault = 0,
+                           const SurfaceUnits& units = {});
+  // The surface that is this fault's shape.
+  std::optional<SurfaceRecord> surface_of(std::int64_t fault) const;
   void rename_surface(std::int64_t surface, const std::string& name);
   void delete_surface(std::int64_t surface);
 

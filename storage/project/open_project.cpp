@@ -38,10 +38,6 @@ bool has_pending_log(const std::filesystem::path& path) {
   return false;
 }
 
-int newest(const OpenOptions& options) {
-  return options.migrations.empty() ? detail::kSchemaVersion : options.migrations.back().to;
-}
-
 std::unique_ptr<detail::WriterLock> lock_for(FileSystem kind, const std::filesystem::path& path,
                                              const OpenOptions& options) {
   return kind == FileSystem::kNetwork ? detail::lease(path, options.edit_socket)
@@ -126,9 +122,11 @@ Project Project::create(const std::filesystem::path& path, const std::optional<s
 }
 
 Project Project::open(const std::filesystem::path& path, OpenMode mode, const OpenOptions& options) {
+  const std::vector<Migration> migrations = detail::all_migrations(options.migrations);
+  const int newest = migrations.back().to;
   auto state = std::make_unique<State>();
   state->path = resolved(path);
-  detail::check_header(state->path, newest(options));
+  detail::check_header(state->path, newest);
   state->file_system = options.file_system.value_or(detail::file_system_of(state->path));
   const bool read_only_medium = state->file_system == FileSystem::kReadOnly;
 
@@ -150,21 +148,21 @@ Project Project::open(const std::filesystem::path& path, OpenMode mode, const Op
   const Access access = state->lock ? Access::kWrite : read_only_medium ? Access::kImmutable : Access::kRead;
   state->database = std::make_unique<Database>(state->path, access);
   Database& database = *state->database;
-  state->version = detail::verify(database, options.migrations);
+  state->version = detail::verify(database, migrations);
   database.exec("PRAGMA foreign_keys = ON");
 
   // 3. An older schema.
-  if (state->version < newest(options)) {
+  if (state->version < newest) {
     if (!state->lock) {
       throw Error(ErrorCode::kUnsupported,
                   fmt::format("{} has schema version {}, this program reads {}", path.string(),
-                              state->version, newest(options)),
+                              state->version, newest),
                   "open it once for writing: it is brought up to date after a backup copy");
     }
-    const auto backup = detail::migrate(database, state->version, options.migrations);
+    const auto backup = detail::migrate(database, state->version, migrations);
     state->notices.emplace_back(fmt::format("brought from schema version {} to {}; the old file is {}",
-                                            state->version, newest(options), backup.string()));
-    state->version = detail::verify(database, options.migrations);
+                                            state->version, newest, backup.string()));
+    state->version = detail::verify(database, migrations);
   }
 
   // 4. The journal, and what happened on the way.

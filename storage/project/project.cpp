@@ -167,6 +167,9 @@ std::vector<survey::Pillar> Project::pillars(std::int64_t fault) const {
 std::vector<SurfaceRecord> Project::surfaces() const {
   return SurfaceTable(*state_->database, SurfaceTable::Family::kSurface).all();
 }
+std::optional<SurfaceRecord> Project::surface_of(std::int64_t fault) const {
+  return SurfaceTable(*state_->database, SurfaceTable::Family::kSurface).of_fault(fault);
+}
 survey::Surface Project::surface(std::int64_t id) const {
   return SurfaceTable(*state_->database, SurfaceTable::Family::kSurface).read(id);
 }
@@ -174,7 +177,10 @@ survey::Surface Project::surface(std::int64_t id) const {
 void Project::add_truth(const survey::Surface& surface, const std::string& kind) {
   state_->write([&] {
     const auto id = state_->database->integer("SELECT coalesce(max(id), 0) + 1 FROM truth");
-    SurfaceTable(*state_->database, SurfaceTable::Family::kTruth).insert(id, surface, kind);
+    SurfaceRecord record;
+    record.id = id;
+    record.kind = kind;
+    SurfaceTable(*state_->database, SurfaceTable::Family::kTruth).insert(surface, record);
   });
 }
 

@@ -102,6 +102,8 @@ class Project {
   FaultRecord fault(std::int64_t id) const;
   std::vector<survey::Pillar> pillars(std::int64_t fault) const;
   std::vector<SurfaceRecord> surfaces() const;
+  // The imported surface that is this fault's shape; nothing for a fault of pillars.
+  std::optional<SurfaceRecord> surface_of(std::int64_t fault) const;
   survey::Surface surface(std::int64_t id) const;
 
   // The interpretation, written: only here. An exception from `change` rolls everything back and passes

@@ -58,11 +58,20 @@ struct FaultRecord {
   Bytes chart;                 // as engine/pillars packs it; empty until set by Interpretation::set_chart
 };
 
-// An imported surface: interpretation too.
+// Of a surface's coordinates: "m" or "ft"; "ms", "s", "m" or "ft".
+struct SurfaceUnits {
+  std::string horizontal = "m";
+  std::string vertical = "m";
+  friend bool operator==(const SurfaceUnits&, const SurfaceUnits&) = default;
+};
+
+// An imported surface: interpretation too. Its z is positive down.
 struct SurfaceRecord {
   std::int64_t id = 0;
-  std::string name;  // unique among the surfaces
-  std::string kind;  // e.g. "gocad_tsurf"
+  std::string name;        // unique among the surfaces
+  std::string kind;        // e.g. "gocad_tsurf"
+  std::int64_t fault = 0;  // the fault whose mesh it is, one without pillars; 0 = none
+  SurfaceUnits units;
   std::int64_t vertices = 0;
   std::int64_t triangles = 0;
 };

@@ -14,18 +14,23 @@ struct Options {
   ExportVolumes volumes;
   ExportFaces faces;
   ExportSticks sticks;
+  ExportPackage package;
 };
 
 console::Output run(const Options& options, const console::Console& console) {
-  if (!options.faces.asked() && !options.volumes.asked() && !options.sticks.asked()) {
+  options.package.check();
+  if (!options.faces.asked() && !options.volumes.asked() && !options.sticks.asked() &&
+      !options.package.asked()) {
     throw Error(ErrorCode::kUsage, "nothing to export",
-                "name a file with --raw, --vtp, --tsurf, --csv or --sticks");
+                "name a file with --raw, --vtp, --tsurf, --csv or --sticks, or a folder with --for petrel "
+                "--out FOLDER");
   }
   const project::Project project = open_project(options.project, project::OpenMode::kRead);
-  console::Output output{{{"files", console::Json::array()}}, ""};
+  console::Output output{{{"files", console::Json::array()}, {"renamed", console::Json::array()}}, ""};
   if (options.volumes.asked()) options.volumes.run(project, console, output);
   if (options.faces.asked()) options.faces.run(project, options.choice, output);
   if (options.sticks.asked()) options.sticks.run(project, options.choice, output);
+  if (options.package.asked()) options.package.run(project, options.choice, output);
   return output;
 }
 
@@ -46,6 +51,13 @@ void add_file(console::Output& output, const std::string& file) {
   output.text += "written " + file + "\n";
 }
 
+void add_renamed(console::Output& output, const std::vector<std::string>& renamed) {
+  for (const std::string& line : renamed) {
+    output.json["renamed"].push_back(line);
+    output.text += "renamed: " + line + "\n";
+  }
+}
+
 void add_export(console::Program& program) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
@@ -55,6 +67,7 @@ void add_export(console::Program& program) {
   options->volumes.add_to(*command);
   options->faces.add_to(*command);
   options->sticks.add_to(*command);
+  options->package.add_to(*command);
   options->choice.add_to(*command);
 }
 

@@ -47,7 +47,20 @@ struct ExportSticks {
   void run(const project::Project& project, const ExportChoice& choice, console::Output& output) const;
 };
 
+// A folder for another program, with a note on how to load it.
+struct ExportPackage {
+  std::string program, folder;
+
+  void add_to(CLI::App& command);
+  bool asked() const { return !program.empty(); }
+  // Throws kUsage where only one of the two options is given.
+  void check() const;
+  void run(const project::Project& project, const ExportChoice& choice, console::Output& output) const;
+};
+
 // Notes a file that was written.
 void add_file(console::Output& output, const std::string& file);
+// Notes names that a format cannot hold, as "old -> new".
+void add_renamed(console::Output& output, const std::vector<std::string>& renamed);
 
 }  // namespace footwall::commands

@@ -16,9 +16,14 @@ struct Options {
 std::string text_of(const console::Json& list) {
   std::string text;
   for (const console::Json& fault : list["faults"]) {
-    text += fmt::format("fault {} {} ({} pillars, {}{})\n", fault["fault"].get<std::int64_t>(),
-                        fault["name"].get<std::string>(), fault["pillars"].size(),
-                        fault["status"].get<std::string>(), fault["locked"].get<bool>() ? ", locked" : "");
+    const console::Json& surface = fault["surface"];
+    const std::string shape = surface.is_null() ? fmt::format("{} pillars", fault["pillars"].size())
+                                                : fmt::format("surface, {} vertices, {} triangles",
+                                                              surface["vertices"].get<std::int64_t>(),
+                                                              surface["triangles"].get<std::int64_t>());
+    text += fmt::format("fault {} {} ({}, {}{})\n", fault["fault"].get<std::int64_t>(),
+                        fault["name"].get<std::string>(), shape, fault["status"].get<std::string>(),
+                        fault["locked"].get<bool>() ? ", locked" : "");
     for (const console::Json& pillar : fault["pillars"]) {
       text += fmt::format("  pillar {} {}\n", pillar["pillar"].get<std::int64_t>(),
                           pillar["kind"].get<std::string>());

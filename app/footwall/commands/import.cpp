@@ -1,4 +1,4 @@
-// footwall import volume|sticks: files into a project.
+// footwall import volume|sticks|surface: files into a project.
 #include "app/footwall/commands/import.h"
 
 #include <fmt/format.h>
@@ -34,9 +34,10 @@ std::string report_text(const formats::ImportReport& report) {
 }
 
 void add_import(console::Program& program) {
-  CLI::App* group = program.add_group("import", "Bring volumes and fault sticks into a project");
+  CLI::App* group = program.add_group("import", "Bring volumes, fault sticks and surfaces into a project");
   add_import_volume(program, group);
   add_import_sticks(program, group);
+  add_import_surface(program, group);
 }
 
 }  // namespace footwall::commands

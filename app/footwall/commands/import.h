@@ -9,6 +9,7 @@ namespace footwall::commands {
 
 void add_import_volume(console::Program& program, CLI::App* group);
 void add_import_sticks(console::Program& program, CLI::App* group);
+void add_import_surface(console::Program& program, CLI::App* group);
 
 // {read, skipped, rejected[{line,column,reason}], assumed[], renamed[]}
 console::Json report_json(const formats::ImportReport& report);

@@ -48,8 +48,13 @@ std::string facts_text(const console::Json& facts) {
         volume["live_traces"].get<std::int64_t>(), volume["source"].get<std::string>());
   }
   for (const console::Json& fault : facts["faults"]) {
-    text += fmt::format("fault {}: {} pillars, {} faces{}\n", fault["name"].get<std::string>(),
-                        fault["pillars"].get<std::int64_t>(), fault["faces"].get<std::int64_t>(),
+    const std::string shape =
+        fault["surface"].is_null()
+            ? fmt::format("{} pillars, {} faces", fault["pillars"].get<std::int64_t>(),
+                          fault["faces"].get<std::int64_t>())
+            : fmt::format("surface, {} vertices, {} triangles", fault["vertices"].get<std::int64_t>(),
+                          fault["faces"].get<std::int64_t>());
+    text += fmt::format("fault {}: {}{}\n", fault["name"].get<std::string>(), shape,
                         fault["stale"].get<bool>() ? " (to be triangulated)" : "");
   }
   for (const console::Json& surface : facts["truth"]) {

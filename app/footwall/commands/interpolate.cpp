@@ -26,6 +26,7 @@ console::Output run(const Options& options, const console::Console& console) {
   console::Output output{{{what, 0}, {"faults", console::Json::array()}}, ""};
   std::int64_t total = 0;
   for (const project::FaultRecord& fault : tasks::chosen_faults(project, options.fault)) {
+    if (options.fault.empty() && project.surface_of(fault.id)) continue;  // it has no pillars
     const std::int64_t n = options.remove
                                ? tasks::remove_interpolated(project, fault)
                                : tasks::interpolate_fault(project, fault, options.how, console.job());

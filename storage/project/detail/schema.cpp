@@ -85,6 +85,15 @@ CREATE TABLE face_statistics(
   FOREIGN KEY(run, fault) REFERENCES extraction_fault(run, fault)) STRICT;
 )sql";
 
+// An imported surface belongs to a fault without pillars (0: to none), and knows the units of its
+// coordinates.
+const Migration kOwnMigrations[] = {
+    {2, "imported surfaces belong to faults",
+     "ALTER TABLE surface ADD COLUMN fault INTEGER NOT NULL DEFAULT 0;"
+     "ALTER TABLE surface ADD COLUMN horizontal_unit TEXT NOT NULL DEFAULT 'm';"
+     "ALTER TABLE surface ADD COLUMN vertical_unit TEXT NOT NULL DEFAULT 'm';",
+     false}};
+
 constexpr const char* kUndoTables[] = {"fault", "pillar", "pillar_node", "surface"};
 
 // What stands in sqlite_schema: "table fault" -> its definition. SQLite keeps a definition as it was given.
@@ -102,7 +111,7 @@ Objects objects_of(Database& database) {
 
 Objects expected_objects(int version, std::span<const Migration> migrations) {
   Database model;
-  create_schema(model);
+  model.exec(kSchema);
   for (const Migration& migration : migrations) {
     if (migration.to <= version) model.exec(migration.sql);
   }
@@ -205,9 +214,17 @@ void check_header(const std::filesystem::path& path, int newest_version) {
   }
 }
 
+std::vector<Migration> all_migrations(std::span<const Migration> further) {
+  std::vector<Migration> all(std::begin(kOwnMigrations), std::end(kOwnMigrations));
+  all.insert(all.end(), further.begin(), further.end());
+  return all;
+}
+
 void create_schema(Database& database) {
   database.exec(kSchema);
-  database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = 1", kApplicationId));
+  for (const Migration& migration : kOwnMigrations) database.exec(migration.sql);
+  database.exec(
+      fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, kSchemaVersion));
 }
 
 int verify(Database& database, std::span<const Migration> migrations) {

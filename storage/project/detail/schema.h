@@ -11,7 +11,10 @@
 namespace footwall::project::detail {
 
 inline constexpr std::int32_t kApplicationId = 0x46574C31;  // "FWL1", at byte 68 of the file
-inline constexpr int kSchemaVersion = 1;
+inline constexpr int kSchemaVersion = 2;
+
+// The steps from version 1 to kSchemaVersion, and behind them those of the caller.
+std::vector<Migration> all_migrations(std::span<const Migration> further);
 
 // The tables whose changes the undo log records.
 std::span<const char* const> tables_under_undo();
@@ -20,11 +23,12 @@ std::span<const char* const> tables_under_undo();
 // it says, and not newer than newest_version. Throws kNotFound, kFormat, kCorrupt, kUnsupported.
 void check_header(const std::filesystem::path& path, int newest_version);
 
-// Makes all tables of version 1 in an empty database.
+// Makes all tables of kSchemaVersion in an empty database.
 void create_schema(Database& database);
 
 // Throws kFormat or kCorrupt unless application_id, quick_check and every table, index, view and trigger are
-// what version user_version has; kUnsupported for a newer version. Returns the version.
+// what version user_version has; kUnsupported for a newer version. Returns the version. migrations: all of
+// them.
 int verify(Database& database, std::span<const Migration> migrations);
 
 // Copies the file to a backup beside it, then runs the migrations after `from` in one transaction. Returns

@@ -31,7 +31,16 @@ void check_shape(const survey::Surface& surface, ErrorCode code) {
 }
 
 SurfaceRecord record_from(const Query& row) {
-  return {row.integer(0), row.text(1), row.text(2), row.integer(3), row.integer(4)};
+  SurfaceRecord record;
+  record.id = row.integer(0);
+  record.name = row.text(1);
+  record.kind = row.text(2);
+  record.vertices = row.integer(3);
+  record.triangles = row.integer(4);
+  record.fault = row.integer(5);
+  record.units.horizontal = row.text(6);
+  record.units.vertical = row.text(7);
+  return record;
 }
 
 }  // namespace
@@ -40,16 +49,30 @@ std::string SurfaceTable::sql(std::string_view text) const {
   return fmt::format(fmt::runtime(text), family_ == Family::kSurface ? "surface" : "truth");
 }
 
+// The truth belongs to no fault and is in the survey's units; its table has no columns for them.
+std::string SurfaceTable::select(std::string_view where) const {
+  const bool surface = family_ == Family::kSurface;
+  return fmt::format("SELECT id, name, kind, vertices, triangles, {} FROM {} {}",
+                     surface ? "fault, horizontal_unit, vertical_unit" : "0, '', ''",
+                     surface ? "surface" : "truth", where);
+}
+
 std::vector<SurfaceRecord> SurfaceTable::all() const {
   std::vector<SurfaceRecord> surfaces;
-  Query row(database_, sql("SELECT id, name, kind, vertices, triangles FROM {} ORDER BY id"));
+  Query row(database_, select("ORDER BY id"));
   while (row.next()) surfaces.push_back(record_from(row));
   return surfaces;
 }
 
 SurfaceRecord SurfaceTable::find(std::int64_t id) const {
-  Query row(database_, sql("SELECT id, name, kind, vertices, triangles FROM {} WHERE id = ?"), id);
+  Query row(database_, select("WHERE id = ?"), id);
   if (!row.next()) throw Error(ErrorCode::kNotFound, fmt::format("there is no surface with id {}", id));
+  return record_from(row);
+}
+
+std::optional<SurfaceRecord> SurfaceTable::of_fault(std::int64_t fault) const {
+  Query row(database_, select("WHERE fault = ? AND fault <> 0"), fault);
+  if (!row.next()) return std::nullopt;
   return record_from(row);
 }
 
@@ -75,17 +98,21 @@ survey::Surface SurfaceTable::read(std::int64_t id) const {
   return surface;
 }
 
-void SurfaceTable::insert(std::int64_t id, const survey::Surface& surface, const std::string& kind) {
+void SurfaceTable::insert(const survey::Surface& surface, const SurfaceRecord& record) {
   check_name("surface", surface.name);
-  check_text("a surface's kind", kind);
+  check_text("a surface's kind", record.kind);
   check_shape(surface, ErrorCode::kInvalid);
   Bytes bytes;
   append(bytes, std::span<const survey::WorldPoint>(surface.vertices));
   append(bytes, std::span<const std::array<std::int32_t, 3>>(surface.triangles));
   const Bytes data = compressed(bytes);
   Query(database_, sql("INSERT INTO {}(id, name, kind, vertices, triangles, data) VALUES(?, ?, ?, ?, ?, ?)"),
-        id, surface.name, kind, static_cast<std::int64_t>(surface.vertices.size()),
+        record.id, surface.name, record.kind, static_cast<std::int64_t>(surface.vertices.size()),
         static_cast<std::int64_t>(surface.triangles.size()), data)
+      .run();
+  if (family_ == Family::kTruth) return;
+  Query(database_, "UPDATE surface SET fault = ?, horizontal_unit = ?, vertical_unit = ? WHERE id = ?",
+        record.fault, record.units.horizontal, record.units.vertical, record.id)
       .run();
 }
 

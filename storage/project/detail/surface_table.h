@@ -1,6 +1,7 @@
 // Triangle surfaces, one compressed row each: imported ones (table surface, under undo) and the true ones of
 // synthetic surveys (table truth).
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,14 +17,17 @@ class SurfaceTable {
 
   std::vector<SurfaceRecord> all() const;
   SurfaceRecord find(std::int64_t id) const;
+  std::optional<SurfaceRecord> of_fault(std::int64_t fault) const;  // of the family kSurface
   // Throws kCorrupt for a row whose blob is not what its counts say.
   survey::Surface read(std::int64_t id) const;
   // Throws kInvalid for vertices that are not finite and triangles that name no vertex.
-  void insert(std::int64_t id, const survey::Surface& surface, const std::string& kind);
+  // The record gives id, kind and, in the family kSurface, fault and units.
+  void insert(const survey::Surface& surface, const SurfaceRecord& record);
   void rename(std::int64_t id, const std::string& name);
   void remove(std::int64_t id);
 
  private:
+  std::string select(std::string_view where) const;
   std::string sql(std::string_view text) const;  // with the family's table for {}
   Database& database_;
   Family family_;

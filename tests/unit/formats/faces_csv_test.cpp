@@ -44,6 +44,18 @@ TEST(FacesCsv, AStatisticThatOneFaultLacksIsEmptyThere) {
   EXPECT_TRUE(line.ends_with(",,,,,,,,0.5")) << line;
 }
 
+TEST(FacesCsv, DeclaresItsUnitsInColumnsAtTheEnd) {
+  const ScratchFolder folder;
+  write(folder / "f.csv", std::vector{sample_mesh("F1")}, Declared{"ft", "ms", true, "EPSG:1, \"x\""});
+  std::istringstream lines(content_of(folder / "f.csv"));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, std::string(kHead) + ",xy_unit,z_unit,z_positive,crs");
+  std::getline(lines, line);
+  EXPECT_TRUE(line.ends_with(",ft,ms,up,\"EPSG:1, \"\"x\"\"\"")) << line;
+  EXPECT_NE(line.find("7322538.712891,-1643.655884,"), std::string::npos) << line;
+}
+
 TEST(FacesCsv, NoFaultsGiveTheHeadAlone) {
   std::ostringstream out;
   print(out, {});

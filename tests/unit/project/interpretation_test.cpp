@@ -224,5 +224,43 @@ TEST_F(InterpretationTest, SurfacesAreKeptWholeAndUndone) {
   EXPECT_THROW(project_->edit("import", [&](Interpretation& it) { it.add_surface(surface, "x"); }), Error);
 }
 
+TEST_F(InterpretationTest, ASurfaceIsTheShapeOfItsFaultAndGoesWithIt) {
+  const survey::Surface surface{"S", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  std::int64_t fault = 0;
+  project_->edit("import", [&](Interpretation& it) {
+    fault = it.add_fault("imported");
+    it.add_surface(surface, "test", fault, {"m", "ms"});
+  });
+  const auto found = project_->surface_of(fault);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->fault, fault);
+  EXPECT_EQ(found->triangles, 1);
+  EXPECT_EQ(found->units, (SurfaceUnits{"m", "ms"}));
+  const std::int64_t revision = project_->fault(fault).revision;
+  EXPECT_GT(revision, 0);
+  // It takes no pillars and no second surface; a fault of pillars takes no surface.
+  const std::vector<survey::WorldPoint> nodes{{0, 0, 0}, {0, 0, 5}};
+  const survey::Surface other{"T", surface.vertices, surface.triangles};
+  EXPECT_THROW(
+      project_->edit(
+          "x", [&](Interpretation& it) { it.add_pillar(fault, survey::PillarKind::kInterpreted, nodes); }),
+      Error);
+  EXPECT_THROW(project_->edit("x", [&](Interpretation& it) { it.add_surface(other, "test", fault); }), Error);
+  EXPECT_THROW(project_->edit("x", [&](Interpretation& it) { it.add_surface(other, "test", fault_); }),
+               Error);
+  // Both go and come back together.
+  project_->edit("delete", [&](Interpretation& it) { it.delete_fault(fault); });
+  EXPECT_TRUE(project_->surfaces().empty());
+  EXPECT_FALSE(project_->surface_of(fault));
+  project_->undo();
+  EXPECT_EQ(project_->fault(fault).revision, revision);
+  EXPECT_EQ(project_->surface(project_->surface_of(fault)->id).triangles, surface.triangles);
+  project_->undo();
+  EXPECT_TRUE(project_->surfaces().empty());
+  // Pillars of other faults are no surface's.
+  EXPECT_FALSE(project_->surface_of(fault_));
+  EXPECT_FALSE(project_->surface_of(0));
+}
+
 }  // namespace
 }  // namespace footwall::project

@@ -55,7 +55,8 @@ class ProjectFolder : public ::testing::Test {
           "SELECT 'p', id, fault, kind, parent_a, parent_b, quote(parameter), hex(former) FROM pillar ORDER "
           "BY id",
           "SELECT 'n', id, pillar, ordinal, quote(x), quote(y), quote(z) FROM pillar_node ORDER BY id",
-          "SELECT 's', id, quote(name), kind, vertices, triangles, hex(data) FROM surface ORDER BY id"}) {
+          "SELECT 's', id, quote(name), kind, vertices, triangles, fault, horizontal_unit, vertical_unit, "
+          "hex(data) FROM surface ORDER BY id"}) {
       EXPECT_EQ(sqlite3_exec(db, sql, add, &all, nullptr), SQLITE_OK);
     }
     sqlite3_close(db);

@@ -33,7 +33,7 @@ TEST_F(ProjectTest, TheSurveyAndSettingsComeBackExactly) {
   {
     auto project = Project::create(path_, small_survey());
     EXPECT_FALSE(project.read_only());
-    EXPECT_EQ(project.schema_version(), 1);
+    EXPECT_EQ(project.schema_version(), 2);
     project.set_setting("velocity", "2000.5");
   }
   auto project = Project::open(path_, OpenMode::kRead);
