@@ -21,7 +21,8 @@ struct LineCandidate {
   double fill = 0;  // traces of the file a bin, 1 at most
   double misfit =
       0;  // root mean square distance of X, Y from the affine map, in bins; NaN without coordinates
-  double score = 0;  // 0 to 1
+  double score = 0;        // 0 to 1
+  bool one_offset = true;  // all traces have one offset, as stacked ones do
 };
 
 // Best first, 16 at most; words that hold the same numbers in other units are listed once, under the most

@@ -6,6 +6,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -90,8 +91,8 @@ struct Report {
   std::int64_t without_coordinates = 0;  // live traces whose X and Y are both zero, left out of the fit
   // Distance, in X/Y units, of the traces from the fitted map: root mean square and the largest; NaN where no
   // map was fitted.
-  double residual = 0;
-  double largest_residual = 0;
+  double residual = std::numeric_limits<double>::quiet_NaN();
+  double largest_residual = std::numeric_limits<double>::quiet_NaN();
   std::string horizontal_unit;  // of X, Y and the residuals: "m" or "ft"
   bool right_handed = false;    // inline, crossline and down form a right-handed system in east, north, down
   std::vector<Conflict> conflicts;
