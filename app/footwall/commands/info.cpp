@@ -5,6 +5,7 @@
 #include "app/footwall/commands/commands.h"
 #include "app/footwall/commands/options.h"
 #include "app/footwall/commands/segy_info.h"
+#include "app/footwall/commands/segy_options.h"
 #include "engine/tasks/project_facts.h"
 #include "storage/formats/segy/segy_file.h"
 
@@ -14,6 +15,7 @@ namespace {
 struct Options {
   std::string file;
   bool verify = false;
+  SegyOptions segy;
 };
 
 std::string lines_text(const console::Json& lines) {
@@ -78,7 +80,7 @@ std::string facts_text(const console::Json& facts) {
 
 console::Output run(const Options& options, const console::Console& console) {
   if (formats::segy::looks_like_segy(options.file)) {
-    return segy_info(options.file, console);
+    return segy_info(options.file, options.segy, console);
   }
   const project::Project project = open_project(options.file, project::OpenMode::kRead);
   console::Output output;
@@ -96,6 +98,7 @@ void add_info(console::Program& program) {
                   [options](console::Console& console) { return run(*options, console); });
   command->add_option("file", options->file, "A project or a SEG-Y file")->required();
   command->add_flag("--verify", options->verify, "Read every volume whole and check every checksum");
+  options->segy.add_to(*command);
 }
 
 }  // namespace footwall::commands

@@ -62,15 +62,7 @@ void VolumeOptions::add_to(CLI::App& command) {
   command.add_option("--crs", crs, "Coordinate reference system of X and Y, as text");
   command.add_option("--interval", interval,
                      "Sample interval in the vertical unit, where the file's is wrong or not there");
-  command.add_option("--inline-byte", inline_byte,
-                     "SEG-Y: trace header byte of the inline number (default 189)");
-  command.add_option("--crossline-byte", crossline_byte,
-                     "SEG-Y: trace header byte of the crossline number (default 193)");
-  command.add_option("--x-byte", x_byte, "SEG-Y: trace header byte of X (default 181)");
-  command.add_option("--y-byte", y_byte, "SEG-Y: trace header byte of Y (default 185)");
-  command.add_option("--format", format, "SEG-Y: sample format code, where the file's is wrong");
-  command.add_option("--endian", endian, "SEG-Y: byte order, big or little, where it cannot be told")
-      ->check(CLI::IsMember({"big", "little"}));
+  headers.add_to(command);
   command.add_option("--dims", dims, "Raw: inlines x crosslines x samples, e.g. 256x256x128");
   command.add_option(
       "--axes", axes,
@@ -110,18 +102,11 @@ void VolumeOptions::check_samples() const {
 
 formats::segy::Options VolumeOptions::segy() const {
   check_samples();
-  formats::segy::Options options;
+  formats::segy::Options options = headers.to_options();
   options.domain = required_domain();
   options.vertical_unit = required_unit();
-  options.inline_byte = inline_byte;
-  options.crossline_byte = crossline_byte;
-  options.x_byte = x_byte;
-  options.y_byte = y_byte;
-  options.format = format;
   options.interval = interval;
   options.crs = crs;
-  if (endian)
-    options.endian = *endian == "big" ? formats::segy::Endian::kBig : formats::segy::Endian::kLittle;
   return options;
 }
 

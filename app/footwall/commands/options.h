@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "app/footwall/commands/segy_options.h"
 #include "app/footwall/console/program.h"
 #include "engine/tasks/volume_sources.h"
 #include "storage/project/project.h"
@@ -22,9 +23,8 @@ project::Project open_project(const std::string& path, project::OpenMode mode);
 // How a volume's file is to be read: what `new --segy|--raw` and `import volume` have in common.
 struct VolumeOptions {
   std::optional<std::string> domain, vertical_unit;
-  std::optional<int> inline_byte, crossline_byte, x_byte, y_byte, format;
+  SegyOptions headers;
   std::optional<double> interval;
-  std::optional<std::string> endian;
   std::string crs;
   std::string dims;
   std::string axes = "ijk";

@@ -70,16 +70,16 @@ bool needs_swap(const Head& head, const Options& options, const detail::ReadOnly
   return sensible(true) || !sensible(false);
 }
 
-const SampleFormat* chosen_format(const Head& head, bool swap, const Options& options,
-                                  const detail::ReadOnlyFile& file) {
-  const int code = options.format ? *options.format : head.at<std::int16_t>(3225, swap);
-  const SampleFormat* format = sample_format(code);
-  if (format != nullptr) return format;
-  const std::string reason = code == 4 ? "4 (32 bit fixed point with gain) is obsolete and not read"
-                                       : fmt::format("{} is not one of SEG-Y's", code);
+constexpr int kGainFormat = 4;  // 32 bit fixed point with gain: defined, not read
+
+[[noreturn]] void refuse_format(const detail::ReadOnlyFile& file, int code) {
   throw Error(
-      ErrorCode::kUnsupported, fmt::format("{}: sample format {}", file.path().string(), reason),
-      "if the header is wrong, say which format it is: 1 IBM float, 2 int32, 3 int16, 5 IEEE float, 8 int8");
+      ErrorCode::kUnsupported,
+      fmt::format("{}: sample format {}", file.path().string(),
+                  code == kGainFormat ? "4 (32 bit fixed point with gain) is obsolete and not read"
+                                      : fmt::format("{} is not one of SEG-Y's", code)),
+      "if the header is wrong, give the right code with --format: 1 IBM float, 2 int32, 3 int16, 5 IEEE "
+      "float, 8 int8");
 }
 
 std::int64_t remainder(const detail::ReadOnlyFile& file, std::int64_t first, std::int64_t trace_size) {
@@ -124,15 +124,66 @@ std::int64_t extended_blocks(const Head& head, bool swap, std::int64_t trace_siz
   refuse(file, "its extended text headers have no end: no stanza ((SEG: EndText)) was found");
 }
 
-void read_texts(const Head& head, std::int64_t blocks, const detail::ReadOnlyFile& file, Report& report) {
+void read_texts(const Head& head, std::int64_t blocks, const detail::ReadOnlyFile& file, Layout& layout,
+                Report& report) {
   report.text_is_ebcdic = is_ebcdic(head.text());
   report.text_header = text_lines(head.text(), report.text_is_ebcdic);
+  std::string whole;  // words may go on from one line, or block, to the next
   std::array<std::byte, kTextHeaderSize> block;
   for (std::int64_t n = 0; n < std::min(blocks, kMostTextBlocks); ++n) {
     file.read_at(kHeadSize + n * static_cast<std::int64_t>(kTextHeaderSize), block);
-    for (std::string& line : text_lines(block, is_ebcdic(block)))
+    const bool ebcdic = is_ebcdic(block);
+    for (std::string& line : text_lines(block, ebcdic))
       report.extended_text_header.push_back(std::move(line));
+    for (const std::byte character : block) whole.push_back(decoded(character, ebcdic));
   }
+  layout.stanza = find_layout_stanza(whole);
+}
+
+// Revision 2.1 has 16 bits for their number where 2.0 had 32.
+std::int64_t additional_headers(const Head& head, bool swap, Report& report) {
+  const std::int64_t narrow = head.at<std::int16_t>(3507, swap);
+  const std::int64_t wide = head.at<std::int32_t>(3507, swap);
+  const bool is_wide =
+      report.revision_minor == 0 && wide > 0 && wide <= std::numeric_limits<std::int16_t>::max();
+  const std::int64_t extra = is_wide ? wide : narrow;
+  if (extra < 0) report.warnings.push_back(fmt::format("{} additional trace headers: none are read", extra));
+  return std::max<std::int64_t>(extra, 0);
+}
+
+// The first additional trace header has its name in its last 8 bytes, in either code page.
+bool names_extension(const detail::ReadOnlyFile& file, const Layout& layout) {
+  constexpr std::string_view kName = "SEG00001";
+  if (layout.header_bytes() < static_cast<std::int64_t>(kMostHeaderBytes)) return false;
+  std::array<std::byte, kName.size()> name;
+  file.read_at(layout.offset_of(0) + static_cast<std::int64_t>(kMostHeaderBytes - kName.size()), name);
+  for (const bool ebcdic : {true, false}) {
+    std::string text;
+    for (const std::byte character : name) text.push_back(decoded(character, ebcdic));
+    if (text == kName) return true;
+  }
+  return false;
+}
+
+// Bytes of stanzas after the last trace, where revision 2 says that there are some.
+std::int64_t trailer_bytes(const Head& head, const detail::ReadOnlyFile& file, const Layout& layout) {
+  constexpr std::int64_t kBlock = static_cast<std::int64_t>(kTextHeaderSize);
+  const std::int64_t stated = head.at<std::int32_t>(3529, layout.swap);
+  if (stated > 0) return stated * kBlock;
+  if (stated != -1) return 0;
+  // Their number is not said: a stanza starts with "((" where a trace would start.
+  std::int64_t found = 0;
+  for (std::int64_t n = 1; n <= kMostTextBlocks; ++n) {
+    const std::int64_t at = file.size() - n * kBlock;
+    if (at < layout.first_trace + layout.trace_size) break;
+    if ((at - layout.first_trace) % layout.trace_size != 0) continue;
+    std::array<std::byte, 2> start;
+    file.read_at(at, start);
+    for (const bool ebcdic : {true, false}) {
+      if (decoded(start[0], ebcdic) == '(' && decoded(start[1], ebcdic) == '(') found = n * kBlock;
+    }
+  }
+  return found;
 }
 
 double stated_interval(const Head& head, bool swap, bool revision2, Report& report) {
@@ -148,7 +199,11 @@ double stated_interval(const Head& head, bool swap, bool revision2, Report& repo
 
 void count_traces(const Head& head, bool revision2, const detail::ReadOnlyFile& file, Layout& layout,
                   Report& report) {
-  const std::int64_t body = file.size() - layout.first_trace;
+  std::int64_t body = file.size() - layout.first_trace;
+  if (revision2) {
+    const std::int64_t trailer = trailer_bytes(head, file, layout);
+    if (trailer <= body) body -= trailer;
+  }
   layout.traces = body > 0 ? body / layout.trace_size : 0;
   if (layout.traces == 0) {
     refuse(file, fmt::format("no trace of {} samples fits into its {} bytes", layout.samples, file.size()),
@@ -172,16 +227,13 @@ void count_traces(const Head& head, bool revision2, const detail::ReadOnlyFile& 
 }  // namespace
 
 Layout read_layout(const detail::ReadOnlyFile& file, const Options& options, Report& report) {
-  if (file.size() < kHeadSize + kTraceHeaderSize) {
-    refuse(file, fmt::format("{} bytes are too few for SEG-Y's headers and a trace", file.size()));
+  if (file.size() < kHeadSize) {
+    refuse(file, fmt::format("{} bytes are too few for SEG-Y's headers", file.size()));
   }
   const Head head(file);
   Layout layout;
   layout.swap = needs_swap(head, options, file);
   layout.endian = layout.swap ? Endian::kBig : Endian::kLittle;
-  layout.format = chosen_format(head, layout.swap, options, file);
-  report.format = layout.format->code;
-  report.format_name = layout.format->name;
   report.endian = layout.endian;
   report.revision_major = head.at<std::uint8_t>(3501, layout.swap);
   report.revision_minor = head.at<std::uint8_t>(3502, layout.swap);
@@ -189,20 +241,28 @@ Layout read_layout(const detail::ReadOnlyFile& file, const Options& options, Rep
     report.warnings.push_back(fmt::format("revision {}.{} is not known: read as revision 1",
                                           report.revision_major, report.revision_minor));
   }
-  const bool revision2 = report.revision_major == 2;
+  const bool revision2 = report.revision_major == 2;  // else the words that came with it hold anything
+  report.format = options.format ? *options.format : head.at<std::int16_t>(3225, layout.swap);
+  layout.format = sample_format(report.format);
+  report.format_name = layout.format != nullptr       ? layout.format->name
+                       : report.format == kGainFormat ? "32 bit fixed point with gain"
+                                                      : "";
+  layout.interval_us = stated_interval(head, layout.swap, revision2, report);
+  report.interval_us = layout.interval_us;
+  layout.measurement = head.at<std::int16_t>(3255, layout.swap);
+  read_texts(head, 0, file, layout, report);
 
   layout.samples = sample_count(head, layout.swap, revision2, file);
+  report.samples = layout.samples;
+  if (layout.format == nullptr && report.format != kGainFormat) refuse_format(file, report.format);
   layout.trace_header_size = kTraceHeaderSize;
-  if (revision2) {
-    const int extra = head.at<std::int16_t>(3507, layout.swap);
-    if (extra > 0) layout.trace_header_size *= 1 + extra;
-    if (extra < 0)
-      report.warnings.push_back(fmt::format("{} additional trace headers: none are read", extra));
-  }
-  layout.trace_size = layout.trace_header_size + layout.samples * layout.format->size;
+  if (revision2) layout.trace_header_size *= 1 + additional_headers(head, layout.swap, report);
+  constexpr int kGainSize = 4;
+  layout.trace_size = layout.trace_header_size +
+                      layout.samples * (layout.format != nullptr ? layout.format->size : kGainSize);
 
   const std::int64_t blocks = extended_blocks(head, layout.swap, layout.trace_size, file, report);
-  read_texts(head, blocks, file, report);
+  read_texts(head, blocks, file, layout, report);
   layout.first_trace = kHeadSize + blocks * static_cast<std::int64_t>(kTextHeaderSize);
   if (revision2) {
     const auto stated = head.at<std::uint64_t>(3521, layout.swap);
@@ -213,26 +273,32 @@ Layout read_layout(const detail::ReadOnlyFile& file, const Options& options, Rep
     }
   }
   count_traces(head, revision2, file, layout, report);
-  layout.interval_us = stated_interval(head, layout.swap, revision2, report);
-  layout.measurement = head.at<std::int16_t>(3255, layout.swap);
   report.traces = layout.traces;
-  report.samples = layout.samples;
+  if (layout.format == nullptr) refuse_format(file, report.format);
+  layout.has_extension = names_extension(file, layout);
   return layout;
 }
 
 bool looks_like_segy(const std::filesystem::path& path) {
+  Report report;
+  bool fits = false;  // traces fill the file to its last byte
+  bool ordered = false;
   try {
     const detail::ReadOnlyFile file(path);
-    Report report;
+    if (file.size() < kHeadSize) return false;
+    const auto order = Head(file).at<std::uint32_t>(3297, true);
+    ordered = order == 0x01020304u || order == 0x04030201u;
     const Layout layout = read_layout(file, {}, report);
-    if ((file.size() - layout.first_trace) % layout.trace_size == 0) return true;
-    // A file that was cut still has its text: mostly printable.
-    std::size_t letters = 0;
-    for (const std::string& line : report.text_header) letters += line.size();
-    return letters >= 160 && report.revision_major <= 2;
-  } catch (const Error&) {
-    return false;  // the question was only whether it looks like one
+    fits = (file.size() - layout.first_trace) % layout.trace_size == 0;
+  } catch (const Error& error) {
+    // The question was only whether it looks like one: what was found up to here tells.
+    if (error.code() == ErrorCode::kNotFound || error.code() == ErrorCode::kIo) return false;
   }
+  if (fits) return true;
+  // One that was cut, or cannot be imported, still has its text, mostly printable, or states its byte order.
+  std::size_t letters = 0;
+  for (const std::string& line : report.text_header) letters += line.size();
+  return is_defined_format(report.format) && (ordered || (letters >= 160 && report.revision_major <= 2));
 }
 
 std::string_view name_of(Endian endian) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace footwall::formats::segy {
 
@@ -79,6 +80,15 @@ MapFit fit_map(const Moments& m) {
                               about_mean(m.yy, m.y, m.y) - a_y * uy - b_y * vy;
   fit.residual = static_cast<double>(std::sqrt(std::max(squares, 0.0L) / n));
   return fit;
+}
+
+double misfit_in_bins(const MapFit& fit) {
+  if (fit.kind == MapFit::Kind::kUnusable) return std::numeric_limits<double>::quiet_NaN();
+  if (fit.kind == MapFit::Kind::kPoint) return 0;
+  const double along_u = std::hypot(fit.per_u_x, fit.per_u_y);
+  const double along_v = std::hypot(fit.per_v_x, fit.per_v_y);
+  const double bin = along_u > 0 && along_v > 0 ? std::min(along_u, along_v) : std::max(along_u, along_v);
+  return fit.residual / bin;
 }
 
 }  // namespace footwall::formats::segy

@@ -33,4 +33,8 @@ struct MapFit {
 
 MapFit fit_map(const Moments& moments);
 
+// The residual as a share of the shorter distance between neighbouring line numbers; 0 for one position, NaN
+// for an unusable fit.
+double misfit_in_bins(const MapFit& fit);
+
 }  // namespace footwall::formats::segy

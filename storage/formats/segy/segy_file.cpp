@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "storage/base/error.h"
-#include "storage/formats/segy/survey_grid.h"
+#include "storage/formats/segy/survey_scan.h"
 
 namespace footwall::formats::segy {
 namespace {
@@ -40,11 +40,12 @@ SegyFile& SegyFile::operator=(SegyFile&&) noexcept = default;
 SegyFile::~SegyFile() = default;
 
 SegyFile SegyFile::scan(const std::filesystem::path& path, const Options& options, const JobContext& job) {
-  const HeaderBytes at = header_bytes(options);
   auto state = std::make_unique<State>(path);
-  state->layout = read_layout(state->file, options, state->report);
-  HeaderScan scan = scan_headers(state->file, state->layout, at, state->report, job);
-  state->geometry = make_geometry(state->file, state->layout, options, at, scan, state->report);
+  SurveyScan scan;
+  scan_survey(state->file, options, false, job, scan);
+  state->layout = std::move(scan.layout);
+  state->geometry = std::move(scan.geometry);
+  state->report = std::move(scan.report);
   state->index = std::move(scan.index);
   return SegyFile(std::move(state));
 }

@@ -30,6 +30,10 @@ class TraceIndex {
   template <class OnDuplicate>
   void settle(const OnDuplicate& on_duplicate);
   void drop_dead();
+  template <class Predicate>
+  void erase_if(const Predicate& predicate) {
+    std::erase_if(entries_, predicate);
+  }
   // Marks all entries as live.
   void revive();
 
