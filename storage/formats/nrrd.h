@@ -82,6 +82,9 @@ struct Meaning {
   std::optional<survey::VerticalUnit> vertical_unit;
   std::optional<double> interval;
   std::string crs;
+  // Where neither the file nor the two above say it: the project's survey.
+  std::optional<survey::Domain> domain_otherwise;
+  std::optional<survey::VerticalUnit> unit_otherwise;
 };
 // Spacings, directions and origin as a survey's geometry, with everything assumed in `assumed`. `complete`
 // tells whether the file itself says where it lies (a space origin with directions, or our own keys).
@@ -89,6 +92,7 @@ struct Meaning {
 struct Placed {
   survey::Geometry geometry;
   bool complete = false;
+  bool interval_stated = false;  // by the file
 };
 Placed geometry_of(const Header& header, const raw::AxisOrder& order, const Meaning& meaning);
 
@@ -103,7 +107,8 @@ class NrrdFile {
   ~NrrdFile();
 
   const Header& header() const;
-  // As raw::RawFile::read_block. Integers of more than 24 bits and doubles are rounded to the nearest float.
+  // As raw::RawFile::read_block. Integers of more than 24 bits and doubles are rounded to the nearest
+  // float; doubles beyond float32 become its largest.
   void read_block(const raw::AxisOrder& order, const survey::Box& box, std::span<float> values) const;
 
  private:

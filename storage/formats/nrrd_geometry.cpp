@@ -71,7 +71,7 @@ class Placing {
     geometry_.crs = meaning_.crs.empty() ? key("crs") : meaning_.crs;
     for (const std::string& note : header_.notes) assume(note);
     geometry_.validate();
-    return {geometry_, whole && !header_.space_origin.empty()};
+    return {geometry_, whole && !header_.space_origin.empty(), interval_stated_};
   }
 
  private:
@@ -110,6 +110,8 @@ class Placing {
     }
     if (meaning_.domain) domain = meaning_.domain;
     if (meaning_.vertical_unit) unit = meaning_.vertical_unit;
+    if (!domain) domain = meaning_.domain_otherwise;
+    if (!unit) unit = meaning_.unit_otherwise;
     if (!domain) {
       throw Error(ErrorCode::kUsage, "--domain is missing: the file cannot tell whether z is time or depth",
                   "add --domain time or --domain depth");
@@ -143,7 +145,7 @@ class Placing {
       const auto first = parts.size() == 2 ? text::integer(parts[0]) : std::nullopt;
       const auto step = parts.size() == 2 ? text::integer(parts[1]) : std::nullopt;
       constexpr std::int64_t kMost = 2000000000;
-      if (!first || !step || *step < 1 || *step > kMost || std::abs(*first) > kMost) {
+      if (!first || !step || *step < 1 || *step > kMost || *first < -kMost || *first > kMost) {
         assume(fmt::format("{} are numbered from 1", name));
         return;
       }
@@ -231,7 +233,7 @@ class Placing {
       return 1.0;
     };
     geometry_.map = {0, 0, 0, bin(*axes_[0], "inlines"), bin(*axes_[1], "crosslines"), 0};
-    assume("X runs along inlines, Y along crosslines, both from 0");
+    assume("X grows with the inlines, Y with the crosslines, both from 0");
     const double interval = length_of(*axes_[2]) * vertical_scale_;
     interval_stated_ = std::isfinite(interval) && interval > 0;
     if (interval_stated_) geometry_.interval = interval;

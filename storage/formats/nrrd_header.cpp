@@ -214,8 +214,9 @@ void Parser::numbered_files(const std::vector<std::string_view>& words) {
       pattern.find('%', end) != std::string_view::npos) {
     wrong("data files are numbered as in 'slice.%03d 1 93 1'");
   }
-  if (std::abs(*first) > kMostFiles * 1000 || std::abs(*last) > kMostFiles * 1000 ||
-      std::abs((*last - *first) / *step) >= kMostFiles || (*last - *first) / *step < 0) {
+  const auto sensible = [](std::int64_t number) { return number >= 0 && number <= 1000 * kMostFiles; };
+  if (!sensible(*first) || !sensible(*last) || (*last - *first) / *step < 0 ||
+      (*last - *first) / *step >= kMostFiles) {
     wrong("the data files' numbers make no range");
   }
   const std::int64_t count = (*last - *first) / *step + 1;
@@ -384,6 +385,7 @@ void Parser::finish(bool attached) {
   }
   if (attached && !detached_) header_.data_at = static_cast<std::int64_t>(at_);
   if (!attached && !detached_) wrong("the header has neither samples behind it nor a data file");
+  if (detached_ && header_.files.empty()) wrong("the list of data files is empty");
   if (size_of(header_.type) > 1 && !endian_said_) {
     header_.notes.emplace_back("the byte order is not stated: little-endian is assumed");
   }

@@ -2,6 +2,8 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "storage/base/error.h"
 #include "storage/formats/detail/bytes.h"
@@ -14,12 +16,18 @@ namespace footwall::formats::nrrd {
 namespace {
 
 constexpr std::int64_t kBuffer = std::int64_t{1} << 20;
+constexpr std::int64_t kMostPacking = 1040;  // deflate makes at most 1032 bytes of one
 
 template <class Number, bool kSwap>
 void decode(const std::byte* in, std::int64_t count, float* out, std::int64_t stride) {
   for (std::int64_t n = 0; n < count; ++n) {
-    out[n * stride] =
-        static_cast<float>(detail::load<Number, kSwap>(in + n * static_cast<std::int64_t>(sizeof(Number))));
+    auto value = detail::load<Number, kSwap>(in + n * static_cast<std::int64_t>(sizeof(Number)));
+    if constexpr (std::is_same_v<Number, double>) {
+      // Finite doubles beyond float32 stay finite; infinities and NaN are nulls as they are.
+      constexpr double kLargest = std::numeric_limits<float>::max();
+      if (std::isfinite(value)) value = std::clamp(value, -kLargest, kLargest);
+    }
+    out[n * stride] = static_cast<float>(value);
   }
 }
 
@@ -168,6 +176,12 @@ void NrrdFile::State::find_samples() {
 }
 
 void NrrdFile::State::unpack(const std::filesystem::path& scratch, const JobContext& job) {
+  // Before any room is taken: a header may announce what no file of this size can hold.
+  for (const std::filesystem::path& path : files) {
+    const detail::ReadOnlyFile file(path);
+    const std::int64_t most = (file.size() + 1) * kMostPacking;
+    if (part > most) too_short(file, part - most);
+  }
   detail::ScratchFile out(scratch, total);
   std::vector<std::byte> buffer(kBuffer);
   std::int64_t done = 0;

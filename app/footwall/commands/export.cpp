@@ -17,11 +17,12 @@ struct Options {
 
 console::Output run(const Options& options, const console::Console& console) {
   if (!options.faces.asked() && !options.volumes.asked()) {
-    throw Error(ErrorCode::kUsage, "nothing to export", "name a file with --raw, --vtp, --tsurf or --csv");
+    throw Error(ErrorCode::kUsage, "nothing to export",
+                "name a file with --raw, --nrrd, --segy, --vti, --vtp, --tsurf or --csv");
   }
   const project::Project project = open_project(options.project, project::OpenMode::kRead);
   console::Output output{{{"files", console::Json::array()}}, ""};
-  if (options.volumes.asked()) options.volumes.run(project, console, output);
+  if (options.volumes.asked()) options.volumes.run(project, options.choice, console, output);
   if (options.faces.asked()) options.faces.run(project, options.choice, output);
   return output;
 }
