@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void mismatch(const std::string& what) {
   throw Error(ErrorCode::kInvalid, "the volume does not fit the project's survey: " + what,
-              "import it into a project of its own, or crop and resample it to the survey's grid first");
+              "--resample survey brings it onto the survey's grid; or import it into a project of its own");
 }
 
 std::int64_t line_offset(std::string_view name, const survey::LineAxis& whole, const survey::LineAxis& part) {

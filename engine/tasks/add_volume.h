@@ -10,7 +10,8 @@
 
 namespace footwall::tasks {
 
-// Where a volume comes from; `fill` as volume::BlockSource says.
+// Where a volume comes from; `fill` as volume::BlockSource says, and for any box inside the geometry, in any
+// order: crop_volume.h and resample_volume.h ask for other boxes than the writer does.
 struct VolumeSource {
   survey::Geometry geometry;
   volume::BlockSource fill;

@@ -21,13 +21,14 @@ console::Output run(const Options& options, const console::Console& console) {
   options.package.check();
   if (!options.faces.asked() && !options.volumes.asked() && !options.sticks.asked() &&
       !options.package.asked()) {
-    throw Error(ErrorCode::kUsage, "nothing to export",
-                "name a file with --raw, --vtp, --tsurf, --csv or --sticks, or a folder with --for petrel "
-                "--out FOLDER");
+    throw Error(
+        ErrorCode::kUsage, "nothing to export",
+        "name a file with --raw, --nrrd, --segy, --vti, --vtp, --tsurf, --csv or --sticks, or a folder with "
+        "--for petrel --out FOLDER");
   }
   const project::Project project = open_project(options.project, project::OpenMode::kRead);
   console::Output output{{{"files", console::Json::array()}, {"renamed", console::Json::array()}}, ""};
-  if (options.volumes.asked()) options.volumes.run(project, console, output);
+  if (options.volumes.asked()) options.volumes.run(project, options.choice, console, output);
   if (options.faces.asked()) options.faces.run(project, options.choice, output);
   if (options.sticks.asked()) options.sticks.run(project, options.choice, output);
   if (options.package.asked()) options.package.run(project, options.choice, output);

@@ -21,11 +21,15 @@ struct ExportChoice {
 };
 
 struct ExportVolumes {
-  std::string volume, raw;
+  std::string volume, raw, nrrd, segy, vti;
+  std::string axes, endian, holes = "skip";
+  int segy_format = 5;
+  std::optional<float> segy_null;
 
   void add_to(CLI::App& command);
-  bool asked() const { return !raw.empty(); }
-  void run(const project::Project& project, const console::Console& console, console::Output& output) const;
+  bool asked() const { return !(raw.empty() && nrrd.empty() && segy.empty() && vti.empty()); }
+  void run(const project::Project& project, const ExportChoice& choice, const console::Console& console,
+           console::Output& output) const;
 };
 
 struct ExportFaces {

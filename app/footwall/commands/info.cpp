@@ -1,8 +1,9 @@
-// footwall info: what is in a project or a SEG-Y file, and whether it is whole.
+// footwall info: what is in a project, a SEG-Y or an NRRD file, and whether it is whole.
 #include <fmt/format.h>
 #include <memory>
 
 #include "app/footwall/commands/commands.h"
+#include "app/footwall/commands/nrrd_info.h"
 #include "app/footwall/commands/options.h"
 #include "app/footwall/commands/segy_info.h"
 #include "app/footwall/commands/segy_options.h"
@@ -79,6 +80,7 @@ std::string facts_text(const console::Json& facts) {
 }
 
 console::Output run(const Options& options, const console::Console& console) {
+  if (formats::nrrd::looks_like_nrrd(options.file)) return nrrd_info(options.file);
   if (formats::segy::looks_like_segy(options.file)) {
     return segy_info(options.file, options.segy, console);
   }
@@ -93,10 +95,10 @@ console::Output run(const Options& options, const console::Console& console) {
 
 void add_info(console::Program& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      program.add(nullptr, "info", "Tell what is in a project or a SEG-Y file, and whether it is whole",
-                  [options](console::Console& console) { return run(*options, console); });
-  command->add_option("file", options->file, "A project or a SEG-Y file")->required();
+  CLI::App* command = program.add(
+      nullptr, "info", "Tell what is in a project, a SEG-Y or an NRRD file, and whether it is whole",
+      [options](console::Console& console) { return run(*options, console); });
+  command->add_option("file", options->file, "A project, a SEG-Y or an NRRD file")->required();
   command->add_flag("--verify", options->verify, "Read every volume whole and check every checksum");
   options->segy.add_to(*command);
 }

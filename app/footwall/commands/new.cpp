@@ -2,43 +2,48 @@
 #include <memory>
 
 #include "app/footwall/commands/commands.h"
-#include "app/footwall/commands/options.h"
+#include "app/footwall/commands/volume_input.h"
 #include "engine/tasks/new_project.h"
-#include "storage/base/log.h"
 
 namespace footwall::commands {
 namespace {
 
 struct Options {
-  std::string project, segy, raw, synthetic, size = "256x256x256", name;
+  std::string project, segy, nrrd, raw, synthetic, size = "256x256x256", name;
   std::uint64_t seed = 1;
   double signal_to_noise = 4;
   VolumeOptions volume;
+  ShapeOptions shape;
 };
 
-std::string volume_name(const Options& options, const std::string& file) {
-  return options.name.empty() ? std::filesystem::path(file).stem().string() : options.name;
+// The file that the first volume comes from; empty where there is none.
+std::pair<std::string, VolumeKind> file_of(const Options& options) {
+  if (!options.segy.empty()) return {options.segy, VolumeKind::kSegy};
+  if (!options.nrrd.empty()) return {options.nrrd, VolumeKind::kNrrd};
+  return {options.raw, VolumeKind::kRaw};
 }
 
 console::Output run(const Options& options, const console::Console& console) {
-  const int sources = !options.segy.empty() + !options.raw.empty() + !options.synthetic.empty();
+  const int sources =
+      !options.segy.empty() + !options.nrrd.empty() + !options.raw.empty() + !options.synthetic.empty();
   if (sources > 1) {
-    throw Error(ErrorCode::kUsage, "--segy, --raw and --synthetic exclude each other",
+    throw Error(ErrorCode::kUsage, "--segy, --nrrd, --raw and --synthetic exclude each other",
                 "give one; footwall import volume adds more");
   }
+  const auto [file, kind] = file_of(options);
   project::VolumeRecord volume;
-  std::vector<std::string> warnings;
-  if (!options.segy.empty()) {
-    const tasks::SegyImport import =
-        tasks::segy_source(options.segy, options.volume.segy(), console.job().part(0, 0.1));
-    warnings = import.report.warnings;
-    volume = tasks::new_project(options.project, volume_name(options, options.segy), import.source,
-                                console.job().part(0.1, 1));
-  } else if (!options.raw.empty()) {
-    const tasks::VolumeSource source =
-        tasks::raw_source(options.raw, options.volume.raw(), options.volume.raw_geometry());
-    volume = tasks::new_project(options.project, volume_name(options, options.raw), source, console.job());
+  VolumeInput input;
+  if (!file.empty()) {
+    input = volume_input(file, kind, options.volume, options.shape, std::nullopt,
+                         std::filesystem::path(options.project).parent_path(), console.job().part(0, 0.1));
+    const std::string name =
+        options.name.empty() ? std::filesystem::path(file).stem().string() : options.name;
+    volume = tasks::new_project(options.project, name, input.source, console.job().part(0.1, 1));
   } else if (!options.synthetic.empty()) {
+    if (options.shape.given()) {
+      throw Error(ErrorCode::kUsage, "--inlines, --crosslines, --z and --resample go with a file",
+                  "--size chooses how large a synthetic survey is");
+    }
     volume =
         tasks::new_synthetic_project(options.project, options.synthetic, dims_from(options.size, "--size"),
                                      options.seed, options.signal_to_noise, console.job());
@@ -46,12 +51,11 @@ console::Output run(const Options& options, const console::Console& console) {
     tasks::new_empty_project(options.project);
     return {{{"project", options.project}}, "made " + options.project + ", without a survey yet"};
   }
-  for (const std::string& warning : warnings) log::warn(warning);
   const project::Project project = open_project(options.project, project::OpenMode::kRead);
-  console::Output output = volume_output(volume, project.survey().value());
+  input.report.assumed = project.survey().value().assumed;
+  console::Output output = volume_output(volume, input);
   output.json["project"] = options.project;
   output.json["faults"] = project.faults().size();
-  output.json["warnings"] = warnings;
   output.text = "made " + options.project + "\n" + output.text;
   return output;
 }
@@ -64,6 +68,7 @@ void add_new(console::Program& program) {
                                   [options](console::Console& console) { return run(*options, console); });
   command->add_option("project", options->project, "The project file to make, NAME.footwall")->required();
   command->add_option("--segy", options->segy, "Import this SEG-Y file (needs --domain and --vertical-unit)");
+  command->add_option("--nrrd", options->nrrd, "Import this NRRD file (.nrrd or .nhdr)");
   command->add_option("--raw", options->raw,
                       "Import this raw float32 file (needs --dims, --domain, --vertical-unit, --interval)");
   command->add_option("--synthetic", options->synthetic, "Make a survey with known faults: faulted");
@@ -77,6 +82,7 @@ void add_new(console::Program& program) {
                       "Synthetic: ratio of rms amplitudes (default 4)");
   command->add_option("--name", options->name, "Name of the volume (default: the file's name)");
   options->volume.add_to(*command);
+  options->shape.add_to(*command);
 }
 
 }  // namespace footwall::commands

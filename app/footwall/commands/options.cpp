@@ -57,7 +57,8 @@ project::Project open_project(const std::string& path, project::OpenMode mode) {
 }
 
 void VolumeOptions::add_to(CLI::App& command) {
-  command.add_option("--domain", domain, "What z is: time or depth (SEG-Y and raw files cannot tell)");
+  command.add_option("--domain", domain,
+                     "What z is: time or depth (SEG-Y, raw and most NRRD files cannot tell)");
   command.add_option("--vertical-unit", vertical_unit, "Unit of z: ms, m or ft");
   command.add_option("--crs", crs, "Coordinate reference system of X and Y, as text");
   command.add_option("--interval", interval,
@@ -66,8 +67,9 @@ void VolumeOptions::add_to(CLI::App& command) {
   command.add_option("--dims", dims, "Raw: inlines x crosslines x samples, e.g. 256x256x128");
   command.add_option(
       "--axes", axes,
-      "Raw: axes from the slowest to the fastest; i inline, j crossline, k sample (default ijk)");
-  command.add_option("--null", null_value, "Raw: the value that stands for 'no value' (NaN always does)");
+      "Raw, NRRD: axes from the slowest to the fastest; i inline, j crossline, k sample (raw ijk, NRRD kji)");
+  command.add_option("--null", null_value,
+                     "Raw, NRRD: the value that stands for 'no value' (NaN always does)");
 }
 
 survey::Domain VolumeOptions::required_domain() const {
@@ -94,6 +96,10 @@ void VolumeOptions::check_samples() const {
                 fmt::format("--domain {} does not go with --vertical-unit {}", *domain, *vertical_unit),
                 "time is in ms, depth in m or ft");
   }
+  check_interval();
+}
+
+void VolumeOptions::check_interval() const {
   if (interval && !(*interval > 0 && std::isfinite(*interval))) {
     throw Error(ErrorCode::kUsage, fmt::format("--interval {} is no sample interval", *interval),
                 "give a number above 0, in the vertical unit");
@@ -115,7 +121,37 @@ tasks::RawOptions VolumeOptions::raw() const {
     throw Error(ErrorCode::kUsage, "--dims is missing: a raw file cannot tell its size",
                 "add --dims inlines x crosslines x samples");
   }
-  return {dims_from(dims, "--dims"), axes, null_value};
+  return {dims_from(dims, "--dims"), axes.empty() ? "ijk" : axes, headers.endian && *headers.endian == "big",
+          null_value};
+}
+
+tasks::NrrdOptions VolumeOptions::nrrd() const {
+  check_interval();
+  tasks::NrrdOptions options;
+  options.axes = axes;
+  options.null_value = null_value;
+  if (domain) options.meaning.domain = survey::domain_from(*domain);
+  if (vertical_unit) options.meaning.vertical_unit = survey::vertical_unit_from(*vertical_unit);
+  options.meaning.interval = interval;
+  options.meaning.crs = crs;
+  return options;
+}
+
+void VolumeOptions::agree_with(const survey::Geometry& survey) const {
+  const auto differs = [](const std::string& option, const std::string& given, const std::string& has) {
+    throw Error(ErrorCode::kInvalid, fmt::format("{} {}, the project's survey has {}", option, given, has),
+                "leave the option out, or import into a project of its own");
+  };
+  if (domain && survey::domain_from(*domain) != survey.domain) {
+    differs("--domain", *domain, std::string(name_of(survey.domain)));
+  }
+  if (vertical_unit && survey::vertical_unit_from(*vertical_unit) != survey.vertical_unit) {
+    differs("--vertical-unit", *vertical_unit, std::string(name_of(survey.vertical_unit)));
+  }
+  if (interval && !(std::abs(*interval - survey.interval) <= 1e-9 * survey.interval)) {
+    differs("--interval", fmt::format("{}", *interval), fmt::format("{}", survey.interval));
+  }
+  if (!crs.empty() && !survey.crs.empty() && crs != survey.crs) differs("--crs", crs, survey.crs);
 }
 
 survey::Geometry VolumeOptions::raw_geometry() const {
@@ -128,26 +164,6 @@ survey::Geometry VolumeOptions::raw_geometry() const {
       tasks::plain_geometry(raw().dims, required_domain(), required_unit(), *interval);
   geometry.crs = crs;
   return geometry;
-}
-
-console::Output volume_output(const project::VolumeRecord& volume, const survey::Geometry& survey) {
-  const bool any = volume.null_count < volume.dims[0] * volume.dims[1] * volume.dims[2];
-  console::Output output;
-  output.json = {{"volume", volume.name},
-                 {"dims", volume.dims},
-                 {"min", any ? console::Json(volume.min) : console::Json()},
-                 {"max", any ? console::Json(volume.max) : console::Json()},
-                 {"live_traces", volume.live_traces},
-                 {"null_count", volume.null_count},
-                 {"checksum", volume.checksum},
-                 {"assumed", survey.assumed}};
-  output.text = fmt::format(
-      "volume {}: {} inlines x {} crosslines x {} samples, {}, {} live traces\n", volume.name, volume.dims[0],
-      volume.dims[1], volume.dims[2],
-      any ? fmt::format("amplitudes {:.6g} to {:.6g}", volume.min, volume.max) : "every sample null",
-      volume.live_traces);
-  for (const std::string& assumed : survey.assumed) output.text += "assumed: " + assumed + "\n";
-  return output;
 }
 
 }  // namespace footwall::commands

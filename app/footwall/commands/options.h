@@ -20,31 +20,32 @@ std::array<double, 2> range_from(const std::string& text, const std::string& opt
 // Opens for reading or writing; notices go to the log, interpolated pillars follow their parents.
 project::Project open_project(const std::string& path, project::OpenMode mode);
 
-// How a volume's file is to be read: what `new --segy|--raw` and `import volume` have in common.
+// How a volume's file is to be read: what `new --segy|--nrrd|--raw` and `import volume` have in common.
 struct VolumeOptions {
   std::optional<std::string> domain, vertical_unit;
   SegyOptions headers;
   std::optional<double> interval;
   std::string crs;
   std::string dims;
-  std::string axes = "ijk";
+  std::string axes;
   std::optional<float> null_value;
 
   void add_to(CLI::App& command);
   // Throws kUsage, naming the option, where the domain or unit is not given.
   formats::segy::Options segy() const;
+  tasks::NrrdOptions nrrd() const;
   tasks::RawOptions raw() const;
   // For a raw file in a project without a survey.
   survey::Geometry raw_geometry() const;
+  // Throws kInvalid with both where what was given is not the survey's: it is not overridden by a volume.
+  void agree_with(const survey::Geometry& survey) const;
 
  private:
   survey::Domain required_domain() const;
   survey::VerticalUnit required_unit() const;
   // Throws kUsage where domain, unit and interval cannot belong together.
   void check_samples() const;
+  void check_interval() const;
 };
-
-// The volume that was brought in, in words and in JSON.
-console::Output volume_output(const project::VolumeRecord& volume, const survey::Geometry& survey);
 
 }  // namespace footwall::commands

@@ -38,7 +38,7 @@ void SegyOptions::add_to(CLI::App& command) {
   command.add_option("--coordinate-scalar", coordinate_scalar,
                      "SEG-Y: scalar of X and Y, where the one at byte 71 is wrong: -100 divides by 100");
   command.add_option("--format", format, "SEG-Y: sample format code, where the file's is wrong");
-  command.add_option("--endian", endian, "SEG-Y: byte order, big or little, where it cannot be told")
+  command.add_option("--endian", endian, "SEG-Y, raw: byte order, big or little (default: told; raw little)")
       ->check(CLI::IsMember({"big", "little"}));
 }
 

@@ -92,6 +92,33 @@ TEST(Raw, WritesWhatItReads) {
   }
 }
 
+TEST(Raw, WritesAnyAxisOrderAndByteOrder) {
+  const ScratchFolder folder;
+  const survey::Index dims{3, 4, 6};
+  const auto reader = [&](const survey::Box& box, std::span<float> values) {
+    std::size_t n = 0;
+    for (std::int64_t i = box.lo[0]; i < box.hi[0]; ++i) {
+      for (std::int64_t j = box.lo[1]; j < box.hi[1]; ++j) {
+        for (std::int64_t k = box.lo[2]; k < box.hi[2]; ++k) values[n++] = value_at(i, j, k);
+      }
+    }
+  };
+  for (const char* name : {"ijk", "ikj", "jik", "jki", "kij", "kji"}) {
+    const AxisOrder order = axis_order_from(name);
+    EXPECT_EQ(name_of(order), name);
+    write(folder / "out.raw", dims, reader, 2, {}, {order, false});
+    EXPECT_EQ(content_of(folder / "out.raw"), volume_in_order(dims, order)) << name;
+    write(folder / "big.raw", dims, reader, 2, {}, {order, true});
+    std::string swapped = content_of(folder / "big.raw");
+    for (std::size_t n = 0; n < swapped.size(); n += 4)
+      std::reverse(swapped.begin() + n, swapped.begin() + n + 4);
+    EXPECT_EQ(swapped, volume_in_order(dims, order)) << name;
+    std::vector<float> values(3 * 4 * 6);
+    RawFile(folder / "big.raw", dims, order, true).read_block({{0, 0, 0}, dims}, values);
+    EXPECT_EQ(bytes_of(values), volume_in_order(dims, kSampleFastest)) << name;
+  }
+}
+
 TEST(Raw, NanBitsSurvive) {
   const ScratchFolder folder;
   const std::uint32_t payload = 0x7FC01234u;
