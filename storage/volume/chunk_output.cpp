@@ -4,9 +4,9 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 
 #include "storage/base/error.h"
+#include "storage/base/pages.h"
 
 namespace footwall::volume {
 namespace {
@@ -25,27 +25,13 @@ int write_all(int descriptor, std::int64_t offset, std::span<const std::byte> by
 }
 
 bool on_pages(std::int64_t offset, std::span<const std::byte> bytes) {
-  constexpr std::uintptr_t kPage = ChunkOutput::kPage;
   return (static_cast<std::uintptr_t>(offset) | reinterpret_cast<std::uintptr_t>(bytes.data()) |
           bytes.size()) %
-             kPage ==
+             kPageBytes ==
          0;
 }
 
 }  // namespace
-
-void FreePages::operator()(void* memory) const {
-  std::free(memory);
-}
-
-Pages allocate_pages(std::size_t bytes) {
-  constexpr std::size_t kPage = ChunkOutput::kPage;
-  void* memory = std::aligned_alloc(kPage, (bytes + kPage - 1) / kPage * kPage);
-  if (memory == nullptr) {
-    throw Error(ErrorCode::kMemory, fmt::format("there is no memory for a buffer of {} MiB", bytes >> 20));
-  }
-  return Pages(static_cast<std::byte*>(memory));
-}
 
 ChunkOutput::ChunkOutput(std::filesystem::path path)
     : path_(std::move(path)),

@@ -5,23 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <span>
 
 namespace footwall::volume {
 
-// Memory that direct writes may come from: starts on a page.
-struct FreePages {
-  void operator()(void* memory) const;
-};
-using Pages = std::unique_ptr<std::byte[], FreePages>;
-// Not initialised. Throws kMemory.
-Pages allocate_pages(std::size_t bytes);
-
 class ChunkOutput {
  public:
-  static constexpr std::int64_t kPage = 4096;
-
   // The file must exist; nothing else may write the byte ranges that write() is given. Throws kIo.
   explicit ChunkOutput(std::filesystem::path path);
   ~ChunkOutput();

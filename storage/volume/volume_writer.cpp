@@ -14,6 +14,7 @@
 
 #include "storage/base/byte_rate.h"
 #include "storage/base/hash.h"
+#include "storage/base/pages.h"
 #include "storage/base/partial_file.h"
 #include "storage/volume/block_workers.h"
 #include "storage/volume/chunk_output.h"
