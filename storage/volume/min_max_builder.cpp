@@ -1,7 +1,5 @@
 #include "storage/volume/min_max_builder.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <limits>
 
@@ -12,7 +10,6 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr std::int64_t kStep = 8;
-constexpr std::int64_t kWorthThreads = 1 << 16;  // samples
 
 void merge(float* min, float* max, float* null, float other_min, float other_max, float other_null) {
   *min = std::min(*min, other_min);
@@ -20,11 +17,26 @@ void merge(float* min, float* max, float* null, float other_min, float other_max
   *null = std::max(*null, other_null);
 }
 
+struct Extremes {
+  float min = kInfinity;
+  float max = -kInfinity;
+  float null = 0;
+};
+
 // Min, max and has-null over several traces, sample by sample: vectorizes, and leaves an eighth of the work
 // to columns.
 struct Fold {
   std::vector<float> min, max;
   std::vector<std::uint32_t> null;
+  // Of the samples from `first` to before `end`. -0 and +0 compare equal, so which one is met first depends
+  // on the order of traces: +0 stands for both.
+  Extremes over(std::int64_t first, std::int64_t end) const {
+    Extremes all;
+    for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(end); ++k) {
+      merge(&all.min, &all.max, &all.null, min[k], max[k], static_cast<float>(null[k]));
+    }
+    return {all.min + 0.0F, all.max + 0.0F, all.null};
+  }
   void clear(std::size_t samples) {
     min.assign(samples, kInfinity);
     max.assign(samples, -kInfinity);
@@ -98,8 +110,6 @@ void MinMaxBuilder::add(const survey::Box& box, std::span<const float> values) {
   require(values.size() == static_cast<std::size_t>(box.count()), "min/max block size");
   const std::int64_t last_a = std::min((box.hi[0] - 1) / kStep, entries_[0] - 1);
   const std::int64_t plane = entries_[1] * entries_[2];
-  while (first_ + static_cast<std::int64_t>(rows_.size()) <= last_a) rows_.push_back(empty_row(plane));
-
   // Entries whose nine layers meet the block: the one before its first trace too, if that trace is shared.
   const auto first_entry = [](std::int64_t lo) {
     return std::max<std::int64_t>(0, (lo + kStep - 1) / kStep - 1);
@@ -108,35 +118,41 @@ void MinMaxBuilder::add(const survey::Box& box, std::span<const float> values) {
   const std::int64_t first_b = first_entry(box.lo[1]);
   const std::int64_t last_b = std::min((box.hi[1] - 1) / kStep, entries_[1] - 1);
   const std::int64_t samples = volume_dims_[2];
-#pragma omp parallel if (box.count() > kWorthThreads)
-  {
-    Fold fold;
-#pragma omp for collapse(2) schedule(static)
-    for (std::int64_t a = first_a; a <= last_a; ++a) {
-      for (std::int64_t b = first_b; b <= last_b; ++b) {
-        const std::int64_t i_end = std::min(box.hi[0], a * kStep + kStep + 1);
-        const std::int64_t j_end = std::min(box.hi[1], b * kStep + kStep + 1);
-        fold.clear(static_cast<std::size_t>(samples));
-        for (std::int64_t i = std::max(box.lo[0], a * kStep); i < i_end; ++i) {
-          for (std::int64_t j = std::max(box.lo[1], b * kStep); j < j_end; ++j) {
-            fold.add(values.data() + ((i - box.lo[0]) * box.size(1) + (j - box.lo[1])) * samples);
-          }
-        }
-        float* row = rows_[static_cast<std::size_t>(a - first_)].data() + b * entries_[2];
-        for (std::int64_t c = 0; c < entries_[2]; ++c) {
-          const std::int64_t k_end = std::min(samples, c * kStep + kStep + 1);
-          for (std::int64_t k = c * kStep; k < k_end; ++k) {
-            const auto n = static_cast<std::size_t>(k);
-            merge(row + c, row + c + plane, row + c + 2 * plane, fold.min[n], fold.max[n],
-                  static_cast<float>(fold.null[n]));
-          }
+  const std::int64_t n_b = last_b - first_b + 1;
+  const std::int64_t n_c = entries_[2];
+  const auto found_size = static_cast<std::size_t>((last_a - first_a + 1) * n_b * n_c);
+  std::vector<Extremes> found(found_size);  // [a][b][c]
+  Extremes* next = found.data();
+  Fold fold;
+  for (std::int64_t a = first_a; a <= last_a; ++a) {
+    for (std::int64_t b = first_b; b <= last_b; ++b) {
+      const std::int64_t i_end = std::min(box.hi[0], a * kStep + kStep + 1);
+      const std::int64_t j_end = std::min(box.hi[1], b * kStep + kStep + 1);
+      fold.clear(static_cast<std::size_t>(samples));
+      for (std::int64_t i = std::max(box.lo[0], a * kStep); i < i_end; ++i) {
+        for (std::int64_t j = std::max(box.lo[1], b * kStep); j < j_end; ++j) {
+          fold.add(values.data() + ((i - box.lo[0]) * box.size(1) + (j - box.lo[1])) * samples);
         }
       }
+      for (std::int64_t c = 0; c < n_c; ++c) {
+        *next++ = fold.over(c * kStep, std::min(samples, c * kStep + kStep + 1));
+      }
+    }
+  }
+
+  const std::scoped_lock lock(mutex_);
+  while (first_ + static_cast<std::int64_t>(rows_.size()) <= last_a) rows_.push_back(empty_row(plane));
+  const Extremes* from = found.data();
+  for (std::int64_t a = first_a; a <= last_a; ++a) {
+    float* row = rows_[static_cast<std::size_t>(a - first_)].data() + first_b * n_c;
+    for (std::int64_t n = 0; n < n_b * n_c; ++n, ++from) {
+      merge(row + n, row + n + plane, row + n + 2 * plane, from->min, from->max, from->null);
     }
   }
 }
 
 std::vector<MinMaxRow> MinMaxBuilder::take_finished(std::int64_t next_inline) {
+  const std::scoped_lock lock(mutex_);
   std::vector<MinMaxRow> finished;
   // Row a needs inline 8a + 8 too, unless the volume ends before.
   while (!rows_.empty() && (next_inline >= volume_dims_[0] || next_inline > first_ * kStep + kStep)) {

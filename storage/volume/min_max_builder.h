@@ -1,6 +1,7 @@
 // Builds level 0 of the min/max pyramid from blocks of a volume, keeping one layer of blocks only.
 #pragma once
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -20,16 +21,17 @@ MinMaxRow halved(const MinMaxRow& row, std::int64_t nb, std::int64_t nc);
 class MinMaxBuilder {
  public:
   explicit MinMaxBuilder(const survey::Index& volume_dims);
-  // Samples of a box that spans all samples of its traces, [inline][crossline][sample], nulls NaN. Boxes come
-  // layer by layer: all of the same inlines before any later ones. Uses OpenMP's threads.
+  // Samples of a box that spans all samples of its traces, [inline][crossline][sample], nulls NaN. Boxes may
+  // come in any order and from several threads at once: the entries are the same to the bit (a zero is +0).
   void add(const survey::Box& box, std::span<const float> values);
   // Rows 0, 1, ... that no inline from `next_inline` on can change, once each, in order; pass dims[0] at the
-  // end.
+  // end. All boxes with inlines before `next_inline` must have been added.
   std::vector<MinMaxRow> take_finished(std::int64_t next_inline);
 
  private:
   survey::Index volume_dims_;
   survey::Index entries_;
+  std::mutex mutex_;        // of what follows
   std::int64_t first_ = 0;  // the a of rows_[0]
   std::vector<MinMaxRow> rows_;
 };

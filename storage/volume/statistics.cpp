@@ -145,8 +145,9 @@ Statistics SampleStatistics::result(std::int64_t live_traces) {
   }
   if (s.count == 0) return s;
 
-  s.min = static_cast<double>(min_);
-  s.max = static_cast<double>(max_);
+  // -0 and +0 compare equal; adding +0 makes it +0 whichever was met first.
+  s.min = static_cast<double>(min_ + 0.0F);
+  s.max = static_cast<double>(max_ + 0.0F);
   s.max_abs = std::max(std::abs(s.min), std::abs(s.max));
   CompensatedSum sum;
   for (const Slice& slice : slices) sum.add(slice.mean * static_cast<double>(slice.count));

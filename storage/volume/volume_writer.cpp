@@ -7,12 +7,19 @@
 #include <cmath>
 #include <cstring>
 
+#include <atomic>
 #include <cerrno>
+#include <deque>
 #include <limits>
 
+#include "storage/base/byte_rate.h"
 #include "storage/base/hash.h"
+#include "storage/base/pages.h"
 #include "storage/base/partial_file.h"
+#include "storage/volume/block_workers.h"
+#include "storage/volume/chunk_output.h"
 #include "storage/volume/description.h"
+#include "storage/volume/disk_room.h"
 #include "storage/volume/min_max_builder.h"
 #include "storage/volume/preamble.h"
 #include "storage/volume/statistics.h"
@@ -24,7 +31,8 @@ namespace {
 constexpr std::int64_t kDefaultSide = 32;
 constexpr std::int64_t kDefaultBlockBytes = std::int64_t{64} << 20;
 constexpr std::int64_t kMostBlockBytes = std::int64_t{1} << 30;
-constexpr std::int64_t kWorthThreads = 1 << 16;  // samples; below, starting threads costs more than they save
+constexpr std::int64_t kMostInFlight = std::int64_t{128} << 20;  // bytes of blocks, if one is not larger
+constexpr std::int64_t kMostWorkers = 8;  // more than a disk can follow; each keeps 3 MiB of statistics
 constexpr float kNull = std::numeric_limits<float>::quiet_NaN();
 
 std::int64_t block_bytes(const survey::Index& dims, const survey::Index& chunk) {
@@ -48,41 +56,6 @@ survey::Index checked_chunk(const WriteOptions& options) {
   return chunk;
 }
 
-// What the file will need: voxels and tables, and 4 MiB for the attributes.
-std::int64_t expected_bytes(const ChunkGrid& grid) {
-  const survey::Index n_chunks = grid.counts();
-  const double voxels = static_cast<double>(n_chunks[0]) * static_cast<double>(n_chunks[1]) *
-                        static_cast<double>(n_chunks[2]) * static_cast<double>(grid.voxels());
-  if (voxels > 1e17) {  // what follows stays far below 2^63
-    throw Error(ErrorCode::kInvalid,
-                fmt::format("a volume of {} x {} x {} voxels is more than a file can hold", grid.dims[0],
-                            grid.dims[1], grid.dims[2]));
-  }
-  std::int64_t bytes =
-      grid.count() * (grid.voxels() * 4 + 8) + grid.dims[0] * grid.dims[1] + (std::int64_t{4} << 20);
-  for (int level = 0; level < min_max_levels(grid.dims); ++level) {
-    const survey::Index n = min_max_dims(grid.dims, level);
-    bytes += n[0] * n[1] * n[2] * 12;
-  }
-  return bytes;
-}
-
-// Takes the room on the disk at once: a full disk shows before hours of import, and before HDF5 holds tables
-// that it could not write any more. File systems that cannot reserve still check the limit on file sizes.
-void reserve(const std::filesystem::path& path, std::int64_t bytes) {
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-  if (descriptor < 0) throw io_error("open", path, errno);
-  int failure = ::fallocate(descriptor, 0, 0, bytes) == 0 ? 0 : errno;
-  if (failure == EOPNOTSUPP || failure == ENOSYS) failure = ::ftruncate(descriptor, bytes) == 0 ? 0 : errno;
-  ::close(descriptor);
-  if (failure != 0) {
-    throw Error(ErrorCode::kIo,
-                fmt::format("cannot write {}: it needs {} MiB: {}", path.string(), bytes >> 20,
-                            std::strerror(failure)),
-                "free some space, raise the limit on file sizes, or choose another folder");
-  }
-}
-
 void write_preamble(const std::filesystem::path& path, const Preamble& preamble) {
   const std::string text = encoded(preamble);
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
@@ -93,7 +66,23 @@ void write_preamble(const std::filesystem::path& path, const Preamble& preamble)
   if (written != static_cast<ssize_t>(text.size())) throw io_error("write", path, failure);
 }
 
-// One file while it is being written.
+// A block on its way: what the source filled in, and the same samples chunk after chunk.
+struct Block {
+  survey::Box box;
+  std::vector<float> values;
+  std::vector<std::uint8_t> live;
+  Pages chunks;
+};
+
+// The blocks of one range of inlines; its tables are written when the last one is done.
+struct Layer {
+  survey::Box box;
+  std::vector<std::uint8_t> live;
+  std::atomic<std::int64_t> missing{0};  // blocks
+};
+
+// One file while it is being written. The thread that made it asks the source and makes all calls of HDF5;
+// workers clean, fold, hash and write the blocks, in any order: nothing that is stored depends on it.
 class Writing {
  public:
   Writing(const std::filesystem::path& temporary, const VolumeInfo& info)
@@ -101,7 +90,8 @@ class Writing {
         grid_{info.dims, info.chunk},
         null_value_(info.null_value.value_or(kNull)),
         min_max_(info.dims),
-        statistics_(static_cast<std::size_t>(omp_get_max_threads())) {
+        statistics_(
+            static_cast<std::size_t>(std::clamp<std::int64_t>(omp_get_max_threads(), 1, kMostWorkers))) {
     create_file();  // finds out whether there is room, before memory is taken for what would not fit
     hashes_.resize(static_cast<std::size_t>(grid_.count()));
     create_datasets();
@@ -114,9 +104,12 @@ class Writing {
  private:
   void create_file();
   void create_datasets();
-  void clean(const survey::Box& box, std::span<const std::uint8_t> live);
-  void write_chunks(const survey::Box& box);
-  void write_live(const survey::Box& layer, std::span<const std::uint8_t> live);
+  std::vector<Block> make_blocks() const;
+  void fill_block(Block& block, Layer& layer, const BlockSource& fill);
+  void work_on(Block& block, SampleStatistics& statistics);
+  void clean(Block& block, SampleStatistics& statistics) const;
+  void write_chunks(Block& block);
+  void write_finished(std::deque<Layer>& layers);
   void write_min_max(std::int64_t next_inline);
   void write_coarser_levels();
 
@@ -125,15 +118,14 @@ class Writing {
   float null_value_;
   MinMaxBuilder min_max_;
   std::vector<std::uint64_t> hashes_;
-  std::vector<SampleStatistics> statistics_;  // one a thread
+  std::vector<SampleStatistics> statistics_;  // one a worker
   std::int64_t live_traces_ = 0;
   Hasher live_hash_;
   Hasher min_max_hash_;
   std::int64_t min_max_rows_ = 0;
-  std::vector<float> values_;  // of a block
-  std::vector<float> chunks_;  // the same samples, chunk after chunk
   std::int64_t voxels_at_ = 0;
-  Handle file_;  // before the datasets: they are closed first
+  std::unique_ptr<ChunkOutput> output_;  // of the voxels
+  Handle file_;                          // before the datasets: they are closed first
   Handle voxels_;
   Handle live_;
   Handle level0_;
@@ -189,55 +181,93 @@ void Writing::create_datasets() {
     throw_hdf5(ErrorCode::kInternal, "HDF5 does not say where the voxels are");
   }
   voxels_at_ = static_cast<std::int64_t>(address) + Preamble::kSize;
+  output_ = std::make_unique<ChunkOutput>(path_);
 }
 
-// Nulls to NaN, dead traces to NaN, and everything into the statistics, while the block is in the cache.
-void Writing::clean(const survey::Box& box, std::span<const std::uint8_t> live) {
-  const std::int64_t samples = box.size(2);
-  const auto traces = static_cast<std::int64_t>(live.size());
-  for (const std::uint8_t alive : live) live_traces_ += alive != 0 ? 1 : 0;
-#pragma omp parallel for schedule(static) if (box.count() > kWorthThreads)
-  for (std::int64_t trace = 0; trace < traces; ++trace) {
-    float* first = values_.data() + trace * samples;
-    if (live[static_cast<std::size_t>(trace)] == 0) {
-      std::fill_n(first, samples, kNull);
-    } else {
-      clean_in_place({first, static_cast<std::size_t>(samples)}, null_value_);
-    }
-    statistics_[static_cast<std::size_t>(omp_get_thread_num())].add(
-        {first, static_cast<std::size_t>(samples)});
+std::vector<Block> Writing::make_blocks() const {
+  const std::int64_t traces = grid_.chunk[0] * grid_.chunk[1];
+  const std::int64_t chunk_bytes =
+      grid_.voxels() * grid_.counts()[2] * static_cast<std::int64_t>(sizeof(float));
+  const std::int64_t each = traces * grid_.dims[2] * static_cast<std::int64_t>(sizeof(float)) + chunk_bytes;
+  const survey::Index n = grid_.counts();
+  // One more than there are workers: it is filled while they work.
+  const std::int64_t wanted = std::min(static_cast<std::int64_t>(statistics_.size()) + 1, n[0] * n[1]);
+  std::vector<Block> blocks(
+      static_cast<std::size_t>(std::clamp<std::int64_t>(kMostInFlight / each, 1, wanted)));
+  for (Block& block : blocks) {
+    block.values.reserve(static_cast<std::size_t>(traces * grid_.dims[2]));
+    block.chunks = allocate_pages(static_cast<std::size_t>(chunk_bytes));
+  }
+  return blocks;
+}
+
+void Writing::fill_block(Block& block, Layer& layer, const BlockSource& fill) {
+  const survey::Box& box = block.box;
+  block.values.resize(static_cast<std::size_t>(box.count()));
+  block.live.assign(static_cast<std::size_t>(box.size(0) * box.size(1)), 1);
+  fill(box, block.values, block.live);
+  for (std::uint8_t& alive : block.live) {
+    alive = alive != 0 ? 1 : 0;
+    live_traces_ += alive;
+  }
+  for (std::int64_t i = 0; i < box.size(0); ++i) {
+    std::copy_n(block.live.data() + i * box.size(1), box.size(1),
+                layer.live.data() + i * layer.box.size(1) + box.lo[1]);
   }
 }
 
-void Writing::write_chunks(const survey::Box& box) {
-  const survey::Box touched = grid_.touched_by(box);
+void Writing::work_on(Block& block, SampleStatistics& statistics) {
+  clean(block, statistics);
+  min_max_.add(block.box, block.values);
+  write_chunks(block);
+}
+
+// Nulls to NaN, dead traces to NaN, and everything into the statistics, while a trace is in the cache.
+void Writing::clean(Block& block, SampleStatistics& statistics) const {
+  const auto samples = static_cast<std::size_t>(block.box.size(2));
+  for (std::size_t trace = 0; trace < block.live.size(); ++trace) {
+    const std::span<float> values = std::span(block.values).subspan(trace * samples, samples);
+    if (block.live[trace] == 0) {
+      std::fill(values.begin(), values.end(), kNull);
+    } else {
+      clean_in_place(values, null_value_);
+    }
+    statistics.add(values);
+  }
+}
+
+// A block's chunks follow each other in the file: they go out as one piece.
+void Writing::write_chunks(Block& block) {
+  const survey::Box touched = grid_.touched_by(block.box);
   const std::int64_t voxels = grid_.voxels();
   const std::int64_t count = touched.size(2);
-#pragma omp parallel for schedule(static) if (box.count() > kWorthThreads)
+  auto* chunks = reinterpret_cast<float*>(block.chunks.get());
   for (std::int64_t c = 0; c < count; ++c) {
     const survey::Index place{touched.lo[0], touched.lo[1], c};
     const survey::Box part = grid_.box_of(place);
-    float* chunk = chunks_.data() + c * voxels;
+    float* chunk = chunks + c * voxels;
     if (part.count() < voxels) std::fill_n(chunk, voxels, 0.0F);
-    copy_clean(part, box, values_.data(), grid_.full_box_of(place), chunk, kNull);
+    copy_clean(part, block.box, block.values.data(), grid_.full_box_of(place), chunk, kNull);
     hashes_[static_cast<std::size_t>(grid_.number_of(place))] =
         hash64(std::as_bytes(std::span(chunk, static_cast<std::size_t>(voxels))));
   }
-  for (std::int64_t c = 0; c < count; ++c) {
-    const hsize_t offset[3] = {static_cast<hsize_t>(box.lo[0]), static_cast<hsize_t>(box.lo[1]),
-                               static_cast<hsize_t>(c * grid_.chunk[2])};
-    if (H5Dwrite_chunk(voxels_.id(), H5P_DEFAULT, 0, offset, static_cast<std::size_t>(voxels) * sizeof(float),
-                       chunks_.data() + c * voxels) < 0) {
-      throw_hdf5(ErrorCode::kIo, "cannot write the volume",
-                 "is the disk full, or a limit on file sizes set?");
-    }
-  }
+  const std::int64_t first = grid_.number_of({touched.lo[0], touched.lo[1], 0});
+  const auto bytes = static_cast<std::size_t>(count * voxels) * sizeof(float);
+  output_->write(voxels_at_ + first * voxels * static_cast<std::int64_t>(sizeof(float)),
+                 std::span(block.chunks.get(), bytes));
 }
 
-void Writing::write_live(const survey::Box& layer, std::span<const std::uint8_t> live) {
-  live_hash_.add(std::as_bytes(live));
-  write_slab(live_.id(), H5T_NATIVE_UINT8, {static_cast<hsize_t>(layer.lo[0]), 0},
-             {static_cast<hsize_t>(layer.size(0)), static_cast<hsize_t>(grid_.dims[1])}, live.data());
+// The tables of the layers that are whole, in order.
+void Writing::write_finished(std::deque<Layer>& layers) {
+  while (!layers.empty() && layers.front().missing.load(std::memory_order_acquire) == 0) {
+    const Layer& layer = layers.front();
+    live_hash_.add(std::as_bytes(std::span(layer.live)));
+    write_slab(live_.id(), H5T_NATIVE_UINT8, {static_cast<hsize_t>(layer.box.lo[0]), 0},
+               {static_cast<hsize_t>(layer.box.size(0)), static_cast<hsize_t>(grid_.dims[1])},
+               layer.live.data());
+    write_min_max(layer.box.hi[0]);
+    layers.pop_front();
+  }
 }
 
 void Writing::write_min_max(std::int64_t next_inline) {
@@ -251,42 +281,42 @@ void Writing::write_min_max(std::int64_t next_inline) {
 }
 
 void Writing::write_blocks(const BlockSource& fill, const JobContext& job) {
-  const survey::Index blocks = grid_.counts();
-  const std::int64_t total = blocks[0] * blocks[1];
-  const auto megabytes = static_cast<double>(grid_.dims[0] * grid_.dims[1] * grid_.dims[2]) * 4e-6;
-  chunks_.resize(static_cast<std::size_t>(grid_.voxels() * blocks[2]));
-  std::vector<std::uint8_t> live;
-  std::vector<std::uint8_t> layer_live;
-  const auto start = std::chrono::steady_clock::now();
-  for (std::int64_t bi = 0; bi < blocks[0]; ++bi) {
-    survey::Box layer = grid_.box_of({bi, 0, 0});
-    layer.hi[1] = grid_.dims[1];
-    layer.hi[2] = grid_.dims[2];
-    layer_live.assign(static_cast<std::size_t>(layer.size(0) * layer.size(1)), 0);
-    for (std::int64_t bj = 0; bj < blocks[1]; ++bj) {
-      const double done = static_cast<double>(bi * blocks[1] + bj) / static_cast<double>(total);
-      const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-      job.report(done, "write",
-                 fmt::format("{:.0f} of {:.0f} MB  {:.0f} MB/s", done * megabytes, megabytes,
-                             done > 0 ? done * megabytes / spent.count() : 0));
-      survey::Box box = grid_.box_of({bi, bj, 0});
-      box.hi[2] = grid_.dims[2];
-      values_.resize(static_cast<std::size_t>(box.count()));
-      live.assign(static_cast<std::size_t>(box.size(0) * box.size(1)), 1);
-      fill(box, values_, live);
-      for (std::uint8_t& alive : live) alive = alive != 0 ? 1 : 0;
-      for (std::int64_t i = 0; i < box.size(0); ++i) {
-        std::copy_n(live.data() + i * box.size(1), box.size(1),
-                    layer_live.data() + i * layer.size(1) + box.lo[1]);
-      }
-      clean(box, live);
-      min_max_.add(box, values_);
-      write_chunks(box);
+  const survey::Index n = grid_.counts();
+  const std::int64_t voxels = grid_.dims[0] * grid_.dims[1] * grid_.dims[2];
+  ByteRate rate(voxels * static_cast<std::int64_t>(sizeof(float)));
+  std::vector<Block> blocks = make_blocks();
+  std::vector<Layer*> layer_of(blocks.size());
+  std::deque<Layer> layers;  // those that are not whole yet
+  std::int64_t filled = 0;   // voxels
+  BlockWorkers workers(statistics_.size(), blocks.size(), [&](std::size_t slot, std::size_t worker) {
+    work_on(blocks[slot], statistics_[worker]);
+    layer_of[slot]->missing.fetch_sub(1, std::memory_order_release);
+  });
+  for (std::int64_t bi = 0; bi < n[0]; ++bi) {
+    Layer& layer = layers.emplace_back();
+    layer.box = grid_.box_of({bi, 0, 0});
+    layer.box.hi[1] = grid_.dims[1];
+    layer.box.hi[2] = grid_.dims[2];
+    layer.live.assign(static_cast<std::size_t>(layer.box.size(0) * layer.box.size(1)), 0);
+    layer.missing = n[1];
+    for (std::int64_t bj = 0; bj < n[1]; ++bj) {
+      job.report(static_cast<double>(filled) / static_cast<double>(voxels), "write",
+                 rate.text(filled * static_cast<std::int64_t>(sizeof(float)), ByteRate::Clock::now()));
+      const std::size_t slot = workers.take_free();
+      write_finished(layers);
+      Block& block = blocks[slot];
+      block.box = grid_.box_of({bi, bj, 0});
+      block.box.hi[2] = grid_.dims[2];
+      fill_block(block, layer, fill);
+      layer_of[slot] = &layer;
+      filled += block.box.count();
+      workers.submit(slot);
     }
-    write_live(layer, layer_live);
-    write_min_max(layer.hi[0]);
   }
-  job.report(1, "write", fmt::format("{:.0f} MB", megabytes));
+  workers.finish();
+  write_finished(layers);
+  job.report(1, "write",
+             rate.text(voxels * static_cast<std::int64_t>(sizeof(float)), ByteRate::Clock::now()));
 }
 
 void Writing::write_coarser_levels() {

@@ -34,12 +34,15 @@ struct WriteOptions {
 // The chunk shape that measured best (docs/volume-format.md): 32 x 32 x 32, smaller where the volume is.
 survey::Index default_chunk(const survey::Index& dims);
 
-// Streams. Memory: twice a block (chunk-inlines x chunk-crosslines x samples x 4 bytes each), 3 MiB a thread,
-// 8 bytes a chunk, and 9/512 of a layer of chunk-inlines. A block larger than 1 GiB is refused (kInvalid);
-// default_chunk() never asks for one above 64 MiB where a block of 8 x 8 traces is not already larger. An
-// existing file is replaced only by a whole one. Cancel is looked at between blocks. Errors: kInvalid
-// (geometry, chunk, provenance that is not JSON), kNotFound (folder), kIo (disk full ...), kCancelled, and
-// what `fill` throws; each leaves no file. Call it from one thread at a time of all HDF5 users.
+// Streams: while the calling thread asks the source, workers (as many as OpenMP would use, at most 8) clean,
+// fold, hash and write the blocks before. What is written does not depend on their number. Memory: as many
+// blocks (chunk-inlines x chunk-crosslines x samples x 4 bytes), twice each, as there are workers and one
+// more, but no more than 128 MiB where one is not larger; 3 MiB a worker, 8 bytes a chunk, and 9/512 of a
+// layer of chunk-inlines. A block larger than 1 GiB is refused (kInvalid); default_chunk() never asks for one
+// above 64 MiB where a block of 8 x 8 traces is not already larger. An existing file is replaced only by a
+// whole one. Cancel is looked at between blocks. Errors: kInvalid (geometry, chunk, provenance that is not
+// JSON), kNotFound (folder), kIo (disk full ...), kCancelled, and what `fill` throws; each leaves no file.
+// Call it from one thread at a time of all HDF5 users.
 VolumeInfo write_volume(const std::filesystem::path& path, const WriteOptions& options,
                         const BlockSource& fill, const JobContext& job);
 

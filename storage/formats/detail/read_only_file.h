@@ -19,6 +19,13 @@ class ReadOnlyFile {
   const std::filesystem::path& path() const { return path_; }
   // Fills `bytes` from `offset`. Throws kIo, kCorrupt where the file ends before.
   void read_at(std::int64_t offset, std::span<std::byte> bytes) const;
+  // Whole pages from an offset on a page boundary into memory on one (storage/base/pages.h), as many as fit
+  // and the file has: what is in the page cache comes from there, the rest straight from the disk where the
+  // file system can, which leaves no copy in the cache and costs hardly any processor time. Returns how many
+  // bytes were read, fewer only at the file's end. Throws kIo.
+  std::size_t read_pages(std::int64_t offset, std::span<std::byte> pages) const;
+  // Starts to read these bytes into the page cache and returns at once.
+  void will_need(std::int64_t offset, std::int64_t bytes) const;
   // Tells the system that the file will be read from front to back.
   void expect_sequential() const;
   // ... or here and there.
@@ -27,7 +34,11 @@ class ReadOnlyFile {
  private:
   std::filesystem::path path_;
   int descriptor_ = -1;
+  int direct_ = -1;  // the same file, past the page cache; -1 where that cannot be
   std::int64_t size_ = 0;
 };
+
+// For a file that is shorter than it was: kCorrupt, with the place and the number of bytes missing.
+[[noreturn]] void throw_ended(const ReadOnlyFile& file, std::int64_t at, std::int64_t missing);
 
 }  // namespace footwall::formats::detail

@@ -3,39 +3,87 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 
+#include "storage/base/byte_rate.h"
+#include "storage/formats/detail/page_buffer.h"
+
 namespace footwall::formats::segy {
 namespace {
 
-constexpr std::int64_t kChunkBytes = std::int64_t{4} << 20;
+constexpr std::int64_t kPieceBytes = std::int64_t{2} << 20;
 // Traces longer than this are skipped over; reading the headers alone is then faster than reading everything.
-constexpr std::int64_t kLongTrace = std::int64_t{16} << 10;
-constexpr std::int64_t kReportEvery = 4096;  // traces
+constexpr std::int64_t kLongTrace = std::int64_t{64} << 10;
+constexpr std::int64_t kAhead = 256;       // headers of long traces that are asked for at once
+constexpr double kFastDisk = 400e6;        // bytes a second
+constexpr std::int64_t kTried = 64 << 20;  // bytes, after which the disk's speed is known
+constexpr const char* kPhase = "read headers";
 
-// Calls on_header(trace, header) for each trace in file order.
-template <class OnHeader>
-void for_each_header(const detail::ReadOnlyFile& file, const Layout& layout, const JobContext& job,
-                     const OnHeader& on_header) {
-  const bool skip = layout.trace_size > kLongTrace;
-  const std::int64_t per_read = skip ? 1 : std::max<std::int64_t>(1, kChunkBytes / layout.trace_size);
+using Header = std::span<const std::byte>;
+
+// The samples are needed soon after: a disk that is slower than kFastDisk had better be read once, through
+// the page cache. Past it, a fast one is read twice in less processor time than the cache would take.
+class ReadingWay {
+ public:
+  detail::PageBuffer::Way way() const { return way_; }
+  void through_cache() { way_ = detail::PageBuffer::Way::kThroughCache; }
+  void after(std::int64_t bytes, std::chrono::duration<double> spent) {
+    if (bytes >= kTried && static_cast<double>(bytes) < kFastDisk * spent.count()) through_cache();
+  }
+
+ private:
+  detail::PageBuffer::Way way_ = detail::PageBuffer::Way::kPastCache;
+};
+
+// Calls on_header(trace, header) for each trace in file order; `in_rows` tells after the first piece whether
+// traces that follow each other belong to one inline, so that blocks will be read in long pieces too.
+template <class OnHeader, class InRows>
+void read_all(const detail::ReadOnlyFile& file, const Layout& layout, const JobContext& job,
+              const OnHeader& on_header, const InRows& in_rows) {
+  const std::int64_t per_read = std::max<std::int64_t>(1, kPieceBytes / layout.trace_size);
+  const std::int64_t total = layout.traces * layout.trace_size;
+  const auto start = std::chrono::steady_clock::now();
+  ByteRate rate(total, start);
   const auto header_bytes = static_cast<std::size_t>(layout.header_bytes());
-  std::vector<std::byte> buffer(skip ? header_bytes : static_cast<std::size_t>(per_read * layout.trace_size));
-  skip ? file.expect_scattered() : file.expect_sequential();
+  ReadingWay way;
+  detail::PageBuffer piece;
+  file.expect_sequential();
   for (std::int64_t first = 0; first < layout.traces; first += per_read) {
+    const std::int64_t done = first * layout.trace_size;
+    const auto now = std::chrono::steady_clock::now();
+    job.report(static_cast<double>(done) / static_cast<double>(total), kPhase, rate.text(done, now));
+    way.after(done, now - start);
+    if (first == per_read && !in_rows()) way.through_cache();
     const std::int64_t count = std::min(per_read, layout.traces - first);
-    const auto bytes = skip ? header_bytes : static_cast<std::size_t>(count * layout.trace_size);
-    file.read_at(layout.offset_of(first), std::span(buffer).first(bytes));
-    for (std::int64_t n = 0; n < count; ++n) {
-      const std::byte* header = buffer.data() + n * layout.trace_size;
-      on_header(first + n, std::span<const std::byte>(header, header_bytes));
+    piece.read(file, layout.offset_of(first), count * layout.trace_size, way.way());
+    for (std::int64_t n = first; n < first + count; ++n) {
+      on_header(n, Header(piece.at(layout.offset_of(n)), header_bytes));
     }
-    if (!skip || first % kReportEvery == 0) {
-      job.report(static_cast<double>(first) / static_cast<double>(layout.traces), "scan trace headers",
-                 fmt::format("{} of {} traces", first, layout.traces));
+  }
+}
+
+template <class OnHeader>
+void read_headers_only(const detail::ReadOnlyFile& file, const Layout& layout, const JobContext& job,
+                       const OnHeader& on_header) {
+  std::vector<std::byte> header(static_cast<std::size_t>(layout.header_bytes()));
+  file.expect_scattered();
+  const auto ask_for = [&](std::int64_t first) {
+    for (std::int64_t n = first; n < std::min(layout.traces, first + kAhead); ++n) {
+      file.will_need(layout.offset_of(n), layout.header_bytes());
     }
+  };
+  ask_for(0);
+  for (std::int64_t n = 0; n < layout.traces; ++n) {
+    if (n % kAhead == 0) {
+      ask_for(n + kAhead);
+      job.report(static_cast<double>(n) / static_cast<double>(layout.traces), kPhase,
+                 fmt::format("{} of {} traces", n, layout.traces));
+    }
+    file.read_at(layout.offset_of(n), header);
+    on_header(n, header);
   }
 }
 
@@ -97,7 +145,7 @@ HeaderScan scan_headers(const detail::ReadOnlyFile& file, const Layout& layout, 
   HeaderScan of_dead;  // needed only where all are marked dead, which is known at the end
   scan.index.reserve(layout.traces);
   scan.offsets.reserve(static_cast<std::size_t>(layout.traces));
-  for_each_header(file, layout, job, [&](std::int64_t trace, std::span<const std::byte> bytes) {
+  const auto on_header = [&](std::int64_t trace, Header bytes) {
     const TraceHeader header = read_trace_header(bytes, at, layout.swap, trace);
     IndexEntry entry{header.inline_number, header.crossline_number, static_cast<std::uint64_t>(trace)};
     if (header.dead) {
@@ -114,7 +162,16 @@ HeaderScan scan_headers(const detail::ReadOnlyFile& file, const Layout& layout, 
       scan.offsets.push_back(offset_from(scan.positions, header));
     }
     scan.index.add(entry);
-  });
+  };
+  const auto in_rows = [&] {
+    const auto& entries = scan.index.entries();
+    return entries.size() < 2 || entries[0].inline_number == entries[1].inline_number;
+  };
+  if (layout.trace_size > kLongTrace) {
+    read_headers_only(file, layout, job, on_header);
+  } else {
+    read_all(file, layout, job, on_header, in_rows);
+  }
   if (scan.live == 0) {
     of_dead.index = std::move(scan.index);
     of_dead.index.revive();
@@ -123,7 +180,7 @@ HeaderScan scan_headers(const detail::ReadOnlyFile& file, const Layout& layout, 
     scan = std::move(of_dead);
     report.warnings.emplace_back("every trace is marked dead (trace identification 2): the mark is ignored");
   }
-  job.report(1, "scan trace headers", fmt::format("{0} of {0} traces", layout.traces));
+  job.report(1, kPhase, fmt::format("{0} of {0} traces", layout.traces));
   return scan;
 }
 
