@@ -47,6 +47,7 @@ int run(const Communicator& world, int argc, char** argv) {
       app.add_subcommand("batch", "runs one job: reads JOB.json, writes part files and result.json");
   batch->add_option("JOB", job, "the job's JOB.json")->required();
   batch->add_option("--volume", options.volume, "where the volume is here (default: where the job says)");
+  batch->add_option("--threads", options.threads, "of each rank (default: as the job says)");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -18,8 +18,6 @@
 namespace footwall::extract {
 namespace {
 
-constexpr std::int64_t kSlabInlines = 64;  // read at once: the usual chunk of a volume file
-
 bool computes_discontinuity(const Options& options) {
   return options.compute.empty() ||
          std::find(options.compute.begin(), options.compute.end(), "discontinuity") != options.compute.end();

@@ -23,6 +23,10 @@ struct Input {
 // on every rank, perhaps with an empty box; must throw on all ranks or on none.
 using ReadBox = std::function<void(const survey::Box& box, std::span<float> values)>;
 
+// A rank reads its box in slabs of so many inlines (the usual chunk of a volume file), which start at
+// multiples of it.
+inline constexpr std::int64_t kSlabInlines = 64;
+
 // EXTRACT-ALL in two steps, for several sets of faces over one reading of the volume: each rank keeps its
 // part in memory in between.
 class LoadedSurvey {

@@ -162,6 +162,7 @@ void run_batch(const comm::Communicator& world, const std::filesystem::path& job
 
   // 1 Read the job; look at the volume.
   Job job = shared_job(world, job_path);
+  if (options.threads > 0) job.options.threads = options.threads;
   if (!options.volume.empty()) job.volume = std::filesystem::absolute(options.volume);
   world.collectively([&] { extract::validate(job.options); });
   // The reader throws on all ranks or on none, so that it may stand inside collectively().

@@ -21,6 +21,7 @@ inline constexpr int kResumable = 75;
 
 struct BatchOptions {
   std::filesystem::path volume;  // where the volume is on this machine; empty = where the job says
+  int threads = 0;               // of each rank; 0 = as the job says
 };
 
 // Collective; the same Error on every rank. Part files are removed or whole, never half; part n is written by

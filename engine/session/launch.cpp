@@ -47,6 +47,7 @@ std::vector<std::string> with_engine(std::vector<std::string> command, const Lau
   if (!options.volume.empty()) {
     command.insert(command.end(), {"--volume", std::filesystem::absolute(options.volume).string()});
   }
+  if (options.threads > 0) command.insert(command.end(), {"--threads", std::to_string(options.threads)});
   return command;
 }
 

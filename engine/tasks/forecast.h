@@ -33,9 +33,10 @@ struct Forecast {
   std::string based_on;  // what the seconds are based on, in words
 };
 
-// Reads a piece of the volume and folds the faces in it for at most about half a second. Throws what
-// VolumeReader throws, kMemory, kCancelled.
+// `cores`: processors that the ranks will share; 0 = one for each of their threads. Reads a piece of the
+// volume and folds the faces in it for at most about half a second. Throws what VolumeReader throws, kMemory,
+// kCancelled.
 Forecast forecast(const session::Job& job, const session::LaunchOptions& launch,
-                  const std::filesystem::path& job_path, const JobContext& context);
+                  const std::filesystem::path& job_path, int cores, const JobContext& context);
 
 }  // namespace footwall::tasks

@@ -98,20 +98,29 @@ std::vector<project::FaultRecord> chosen_faults(const project::Project& project,
   return faults;
 }
 
-Triangulated triangulate_fault(project::Project& project, const project::FaultRecord& fault,
-                               const TriangulateOptions& options, const JobContext& job) {
+project::MeshRecord mesh_of_fault(const project::Project& project, const project::FaultRecord& fault,
+                                  const TriangulateOptions& options, const JobContext& job,
+                                  std::vector<std::string>* notes) {
   const survey::Geometry survey = required_survey(project, "triangulation");
   const std::vector<survey::Pillar> stored = project.pillars(fault.id);
   try {
     const pillars::FaultMesh mesh =
         pillars::triangulate(inputs(survey, stored), {options.detail, options.max_edge, options.tie},
                              options.rechart ? std::nullopt : stored_chart(project, fault), job);
-    project.store_mesh(fault.id, mesh_record(survey, fault, stored, mesh, options));
-    return {fault.name, static_cast<std::int64_t>(mesh.vertices.size()),
-            static_cast<std::int64_t>(mesh.faces.size()), mesh.notes};
+    if (notes != nullptr) *notes = mesh.notes;
+    return mesh_record(survey, fault, stored, mesh, options);
   } catch (const Error& error) {
     throw about(fault, error);
   }
+}
+
+Triangulated triangulate_fault(project::Project& project, const project::FaultRecord& fault,
+                               const TriangulateOptions& options, const JobContext& job) {
+  std::vector<std::string> notes;
+  const project::MeshRecord mesh = mesh_of_fault(project, fault, options, job, &notes);
+  project.store_mesh(fault.id, mesh);
+  return {fault.name, static_cast<std::int64_t>(mesh.vertices.size()),
+          static_cast<std::int64_t>(mesh.faces.size()), notes};
 }
 
 std::int64_t interpolate_fault(project::Project& project, const project::FaultRecord& fault,
