@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "engine/session/batch.h"
@@ -42,7 +43,9 @@ JobContext::Listener progress_printer() {
 
 // Signal handlers can reach nothing but a variable of the file.
 const JobContext* running_job = nullptr;
-void cancel_running_job(int) {
+volatile std::sig_atomic_t terminated = 0;
+void cancel_running_job(int number) {
+  if (number == SIGTERM) terminated = 1;
   running_job->cancel();
 }
 
@@ -55,7 +58,12 @@ void print_error(const Error& error) {
                 {"hint", error.hint()}}}});
 }
 
-void batch(const comm::Communicator& world, const std::filesystem::path& job_path) {
+bool told_to_make_room() {
+  return terminated != 0;
+}
+
+void batch(const comm::Communicator& world, const std::filesystem::path& job_path,
+           const session::BatchOptions& options) {
   static JobContext job;  // lives as long as a signal may come
   if (world.rank() == 0) job = JobContext(progress_printer());
   running_job = &job;
@@ -63,7 +71,7 @@ void batch(const comm::Communicator& world, const std::filesystem::path& job_pat
   action.sa_handler = cancel_running_job;
   action.sa_flags = SA_RESTART;
   for (const int number : {SIGINT, SIGTERM, SIGUSR1}) sigaction(number, &action, nullptr);
-  session::run_batch(world, job_path, job);
+  session::run_batch(world, job_path, job, options);
 }
 
 }  // namespace footwall::app

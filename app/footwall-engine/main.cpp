@@ -1,5 +1,5 @@
-// The MPI program: runs one batch job on all ranks. Exit 0 done, 1 failed, 2 wrong usage, 130 cancelled; a
-// failure is printed once.
+// The MPI program: runs one batch job on all ranks. Exit 0 done, 1 failed, 2 wrong usage, 75 told to make
+// room (SIGTERM; run it again and it goes on), 130 cancelled; a failure is printed once.
 #include <signal.h>
 #include <sys/prctl.h>
 
@@ -7,6 +7,8 @@
 
 #include "app/footwall-engine/batch_command.h"
 #include "engine/comm/environment.h"
+#include "engine/session/batch.h"
+#include "engine/session/lonely_rank.h"
 
 namespace {
 
@@ -14,26 +16,38 @@ using footwall::Error;
 using footwall::ErrorCode;
 using footwall::comm::Communicator;
 
-int exit_code_of(ErrorCode code) {
+int exit_code_of(ErrorCode code, bool told_to_make_room) {
   if (code == ErrorCode::kUsage) return 2;
-  return code == ErrorCode::kCancelled ? 130 : 1;
+  if (code != ErrorCode::kCancelled) return 1;
+  return told_to_make_room ? footwall::session::kResumable : 130;
 }
 
 // Leaves together: the first rank to exit with a code other than 0 makes mpirun kill the others, and rank 0
 // must have printed by then.
 int leave(const Communicator& world, const Error& error) {
-  if (world.rank() == 0) footwall::app::print_error(error);
+  // A batch system may tell some ranks only; all leave with one status.
+  const bool make_room = world.maximum(std::int64_t{footwall::app::told_to_make_room() ? 1 : 0}) == 1;
+  const int code = exit_code_of(error.code(), make_room);
+  if (world.rank() == 0) {
+    footwall::app::print_error(code == footwall::session::kResumable
+                                   ? Error(ErrorCode::kCancelled, "the job was told to make room",
+                                           "run it again: it goes on with the faults that are not done")
+                                   : error);
+  }
   MPI_Barrier(world.get());
-  return exit_code_of(error.code());
+  return code;
 }
 
 int run(const Communicator& world, int argc, char** argv) {
   CLI::App app("The computing engine of Footwall; started by footwall under mpirun.");
   app.require_subcommand(1);
   std::string job;
-  app.add_subcommand("batch", "runs one job: reads JOB.json, writes part files and result.json")
-      ->add_option("JOB", job, "the job's JOB.json")
-      ->required();
+  footwall::session::BatchOptions options;
+  CLI::App* batch =
+      app.add_subcommand("batch", "runs one job: reads JOB.json, writes part files and result.json");
+  batch->add_option("JOB", job, "the job's JOB.json")->required();
+  batch->add_option("--volume", options.volume, "where the volume is here (default: where the job says)");
+  batch->add_option("--threads", options.threads, "of each rank (default: as the job says)");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -41,7 +55,7 @@ int run(const Communicator& world, int argc, char** argv) {
     MPI_Barrier(world.get());
     return error.get_exit_code() == 0 ? code : 2;
   }
-  footwall::app::batch(world, job);
+  footwall::app::batch(world, job, options);
   return 0;
 }
 
@@ -54,6 +68,7 @@ int main(int argc, char** argv) {
   try {
     const footwall::comm::Environment environment(argc, argv);
     const Communicator world(MPI_COMM_WORLD);
+    footwall::session::refuse_lonely_rank(world.size());
     try {
       code = run(world, argc, argv);
     } catch (const footwall::comm::AgreedError& error) {

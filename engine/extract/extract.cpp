@@ -18,8 +18,6 @@
 namespace footwall::extract {
 namespace {
 
-constexpr std::int64_t kSlabInlines = 64;  // read at once: the usual chunk of a volume file
-
 bool computes_discontinuity(const Options& options) {
   return options.compute.empty() ||
          std::find(options.compute.begin(), options.compute.end(), "discontinuity") != options.compute.end();
@@ -109,38 +107,61 @@ void validate(const Options& options) {
   }
 }
 
-Result extract_all(const comm::Communicator& parent, const Input& input, const Options& options,
-                   const ReadBox& read, const JobContext& job) {
+struct LoadedSurvey::State {
+  State(const comm::Communicator& parent, const comm::RankGrid& its_grid)
+      : grid(its_grid),
+        world(parent, grid),
+        block(world.collectively([&] { return Block(grid.box(world.rank()), grid.dims()); })) {}
+  comm::RankGrid grid;
+  comm::Communicator world;
+  Block block;
+  double read_seconds = 0;  // of this rank
+};
+
+LoadedSurvey::LoadedSurvey(const comm::Communicator& parent, const survey::Index& dims, const ReadBox& read,
+                           const JobContext& job) {
   const double start = omp_get_wtime();
   const comm::RankGrid grid = parent.collectively([&] {
-    validate(options);
-    voxelize::apply_forced_simd();
-    if (input.dims[0] < 1 || input.dims[1] < 1 || input.dims[2] < 1) {
+    if (dims[0] < 1 || dims[1] < 1 || dims[2] < 1) {
       throw Error(ErrorCode::kInvalid, "the survey has no voxels");
     }
-    return comm::RankGrid(input.dims, parent.size());
+    return comm::RankGrid(dims, parent.size());
   });
-  comm::Communicator world(parent, grid);
+  state_ = std::make_unique<State>(parent, grid);
+  read_block(state_->world, read, job, state_->block);
+  state_->read_seconds = omp_get_wtime() - start;
+}
 
-  // 1 read
-  auto [responsible, block] = world.collectively([&] {
-    return std::pair(balance_strategy(options.balance).run(grid, input.faces),
-                     Block(grid.box(world.rank()), input.dims));
+LoadedSurvey::~LoadedSurvey() = default;
+
+Result LoadedSurvey::extract(const Input& input, const Options& options, const JobContext& job) {
+  const double start = omp_get_wtime();
+  comm::Communicator& world = state_->world;
+  const bool with_discontinuity = computes_discontinuity(options);
+  double scale = 0;
+  const std::vector<int> responsible = world.collectively([&] {
+    validate(options);
+    require(input.dims == state_->grid.dims(), "faces of the survey that was read");
+    voxelize::apply_forced_simd();
+    if (with_discontinuity) scale = discontinuity_scale(input.max_abs);
+    return balance_strategy(options.balance).run(state_->grid, input.faces);
   });
-  read_block(world, read, job.part(0, 0.5), block);
-  const double read_done = omp_get_wtime();
+  const comm::Traffic before = world.traffic();
 
   // 2 voxelize, 3 exchange, 4 compute
-  const bool with_discontinuity = computes_discontinuity(options);
-  const double scale =
-      world.collectively([&] { return with_discontinuity ? discontinuity_scale(input.max_abs) : 0; });
-  const JobContext rest = job.part(0.5, 0.95);
-  const Setup setup{
-      world,           grid, block, input, responsible, options.voxelizer, with_discontinuity, scale,
-      options.threads, rest};
+  const Setup setup{world,
+                    state_->grid,
+                    state_->block,
+                    input,
+                    responsible,
+                    options.voxelizer,
+                    with_discontinuity,
+                    scale,
+                    options.threads,
+                    job};
   const ExchangeStrategy& exchange = exchange_strategy(options.exchange);
   const Outcome outcome = exchange.run(setup);
-  const comm::Traffic traffic = world.traffic();
+  const comm::Traffic after = world.traffic();
 
   Result result;
   result.faces = gathered(world, outcome.finished, input.faces.size());
@@ -150,9 +171,10 @@ Result extract_all(const comm::Communicator& parent, const Input& input, const O
   report.ranks = world.size();
   report.threads = options.threads;
   report.faces = static_cast<std::int64_t>(input.faces.size());
+  report.walked_here = outcome.walked;
   report.voxels = world.sum(outcome.walked);
-  report.bytes_sent = world.sum(traffic.bytes);
-  report.messages = world.sum(traffic.messages);
+  report.bytes_sent = world.sum(after.bytes - before.bytes);
+  report.messages = world.sum(after.messages - before.messages);
   if (report.voxels > 0) {
     report.load_max_over_mean = static_cast<double>(world.maximum(outcome.walked)) * world.size() /
                                 static_cast<double>(report.voxels);
@@ -160,12 +182,19 @@ Result extract_all(const comm::Communicator& parent, const Input& input, const O
   const auto hash = static_cast<std::int64_t>(
       world.collectively([&] { return world.rank() == 0 ? checksum_of(input.faces, result.faces) : 0; }));
   report.checksum = static_cast<std::uint64_t>(world.sum(hash));  // the others add 0
-  report.seconds.read = world.maximum(read_done - start);
+  report.seconds.read = world.maximum(state_->read_seconds);
   report.seconds.voxelize = world.maximum(outcome.seconds.voxelize);
   report.seconds.exchange = world.maximum(outcome.seconds.exchange);
   report.seconds.compute = world.maximum(outcome.seconds.compute);
-  report.seconds.total = world.maximum(omp_get_wtime() - start);
+  report.seconds.total = world.maximum(state_->read_seconds + omp_get_wtime() - start);
   return result;
+}
+
+Result extract_all(const comm::Communicator& world, const Input& input, const Options& options,
+                   const ReadBox& read, const JobContext& job) {
+  world.collectively([&] { validate(options); });
+  LoadedSurvey survey(world, input.dims, read, job.part(0, 0.5));
+  return survey.extract(input, options, job.part(0.5, 0.95));
 }
 
 std::uint64_t checksum_of(std::span<const Face> faces, std::span<const FaceStatistics> statistics) {

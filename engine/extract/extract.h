@@ -3,6 +3,7 @@
 // count, exchange strategy, threads or SIMD path.
 #pragma once
 #include <functional>
+#include <memory>
 #include <span>
 
 #include "engine/comm/communicator.h"
@@ -21,6 +22,31 @@ struct Input {
 // Gives the values of `box`, [inline][crossline][sample], NaN for nulls. Called collectively, equally often
 // on every rank, perhaps with an empty box; must throw on all ranks or on none.
 using ReadBox = std::function<void(const survey::Box& box, std::span<float> values)>;
+
+// A rank reads its box in slabs of so many inlines (the usual chunk of a volume file), which start at
+// multiples of it.
+inline constexpr std::int64_t kSlabInlines = 64;
+
+// EXTRACT-ALL in two steps, for several sets of faces over one reading of the volume: each rank keeps its
+// part in memory in between.
+class LoadedSurvey {
+ public:
+  // 1 read the rank's box and a halo of one trace. Collective; throws kInvalid (no voxels), kMemory,
+  // kCancelled, and what `read` throws.
+  LoadedSurvey(const comm::Communicator& parent, const survey::Index& dims, const ReadBox& read,
+               const JobContext& job = {});
+  ~LoadedSurvey();
+  LoadedSurvey(const LoadedSurvey&) = delete;
+  LoadedSurvey& operator=(const LoadedSurvey&) = delete;
+
+  // 2 voxelize; 3 exchange; 4 compute; then gather the results at rank 0. input.dims is that of the reading.
+  // Collective; as extract_all. Report::seconds.read is that of the constructor, and part of the total.
+  Result extract(const Input& input, const Options& options, const JobContext& job = {});
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 // Steps, each a timed phase: 1 read the rank's box and a halo of one trace; 2 voxelize; 3 exchange; 4
 // compute; then gather the results at rank 0. Collective; cancellable per face; errors are the same on every

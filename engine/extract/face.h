@@ -64,8 +64,9 @@ struct Report {
   int ranks = 1;
   int threads = 1;
   std::int64_t faces = 0;
-  std::int64_t voxels = 0;      // count + nulls over all faces
-  std::int64_t bytes_sent = 0;  // by the exchange phase, sizes included
+  std::int64_t voxels = 0;       // count + nulls over all faces
+  std::int64_t walked_here = 0;  // of them, by this rank: the only number that differs between ranks
+  std::int64_t bytes_sent = 0;   // by the exchange phase, sizes included
   std::int64_t messages = 0;
   double load_max_over_mean = 1;  // of the voxels each rank walked; 1 where there are none
   std::uint64_t checksum = 0;     // of ids and statistics, see checksum_of()

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/extract/extract.h"
-#include "engine/extract/face_geometry.h"
 #include "engine/extract/registry.h"
 #include "engine/session/job.h"
 #include "engine/session/part_file.h"
+#include "engine/session/shared_parts.h"
 #include "storage/base/hash.h"
 #include "storage/base/partial_file.h"
 #include "storage/volume/volume_reader_parallel.h"
@@ -18,6 +18,10 @@ namespace footwall::session {
 namespace {
 
 using Json = nlohmann::json;
+
+// How much a stopped job may lose, against the cost of one more round of all ranks.
+constexpr std::size_t kSmallestGroup = 20000;  // faces
+constexpr std::size_t kMostGroups = 20;
 
 std::string shared_text(const comm::Communicator& world, const std::string& text) {
   const auto raw = std::as_bytes(std::span(text));
@@ -61,48 +65,58 @@ void check_volume(const volume::VolumeInfo& info, Job& job) {
   }
 }
 
-// The whole parts of an earlier run that belong to this very job; the others are left empty.
-std::vector<std::optional<Part>> earlier_parts(const Job& job) {
-  std::vector<std::optional<Part>> parts(job.faults.size());
-  for (std::size_t n = 0; n < parts.size(); ++n) {
-    const JobFault& fault = job.faults[n];
-    const std::filesystem::path path = part_path(job.output, fault.id);
-    if (!std::filesystem::exists(path)) continue;
-    try {
-      Part part = read_part(path);
-      if (part.hash == part_hash(job, fault) && part.faces == fault.faces) parts[n] = std::move(part);
-    } catch (const Error&) {
-      // Not whole, or not ours: it is computed and written again.
+// What was computed, over all groups of faults.
+class Totals {
+ public:
+  Totals(const Job& job, int ranks) {
+    report_.exchange = job.options.exchange == "auto" ? "reduce" : job.options.exchange;
+    report_.balance = job.options.balance;
+    report_.ranks = ranks;
+    report_.threads = job.options.threads;
+  }
+  void add(const extract::Report& group) {
+    extract::Seconds& sum = report_.seconds;
+    sum.read = group.seconds.read;  // once for all groups
+    sum.voxelize += group.seconds.voxelize;
+    sum.exchange += group.seconds.exchange;
+    sum.compute += group.seconds.compute;
+    report_.exchange = group.exchange;
+    report_.bytes_sent += group.bytes_sent;
+    report_.messages += group.messages;
+    report_.voxels += group.voxels;
+    report_.walked_here += group.walked_here;
+  }
+  // Collective.
+  extract::Report report(const comm::Communicator& world) const {
+    extract::Report whole = report_;
+    const std::int64_t most = world.maximum(whole.walked_here);
+    if (whole.voxels > 0) {
+      whole.load_max_over_mean = static_cast<double>(most) * whole.ranks / static_cast<double>(whole.voxels);
     }
+    return whole;
   }
-  return parts;
-}
 
-Part new_part(const Job& job, const JobFault& fault, std::span<const extract::FaceStatistics> statistics) {
-  Part part{fault.id, fault.name, part_hash(job, fault), fault.faces, {statistics.begin(), statistics.end()},
-            {}};
-  for (const extract::Face& face : part.faces) {
-    part.geometry.push_back(extract::face_geometry(job.geometry, face.triangle, job.velocity));
-  }
-  return part;
-}
+ private:
+  extract::Report report_;
+};
 
 Json summary(const Job& job, const std::filesystem::path& job_path, const extract::Report& report,
-             const std::vector<Part>& parts, const std::vector<bool>& reused, double total_seconds) {
+             const SharedParts& parts, double total_seconds) {
   std::vector<extract::Face> faces;
   std::vector<extract::FaceStatistics> statistics;
   Json files = Json::array();
   std::int64_t voxels = 0;
-  for (std::size_t n = 0; n < parts.size(); ++n) {
-    const Part& part = parts[n];
-    faces.insert(faces.end(), part.faces.begin(), part.faces.end());
-    statistics.insert(statistics.end(), part.statistics.begin(), part.statistics.end());
-    for (const extract::FaceStatistics& face : part.statistics) voxels += face.count + face.nulls;
-    files.push_back({{"fault", part.fault},
-                     {"name", job.faults[n].name},
-                     {"file", part_path({}, part.fault).string()},
-                     {"faces", part.faces.size()},
-                     {"reused", static_cast<bool>(reused[n])}});
+  for (std::size_t n = 0; n < job.faults.size(); ++n) {
+    const JobFault& fault = job.faults[n];
+    const std::vector<extract::FaceStatistics>& computed = parts.statistics()[n];
+    faces.insert(faces.end(), fault.faces.begin(), fault.faces.end());
+    statistics.insert(statistics.end(), computed.begin(), computed.end());
+    for (const extract::FaceStatistics& face : computed) voxels += face.count + face.nulls;
+    files.push_back({{"fault", fault.id},
+                     {"name", fault.name},
+                     {"file", part_path({}, fault.id).string()},
+                     {"faces", fault.faces.size()},
+                     {"reused", parts.reused(n)}});
   }
   return {{"job", job_path.filename().string()},
           {"ranks", report.ranks},
@@ -132,72 +146,71 @@ void make_folder(const std::filesystem::path& folder) {
   if (failure) throw io_error("make the folder", folder.string(), failure.value());
   std::filesystem::remove(folder / "result.json", failure);
   if (failure) throw io_error("remove", (folder / "result.json").string(), failure.value());
+  // Halves of parts that a killed run left.
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failure)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(".fault-") && name.find(".part.h5.partial-") != std::string::npos)
+      std::filesystem::remove(entry.path(), failure);
+  }
 }
 
 }  // namespace
 
 void run_batch(const comm::Communicator& world, const std::filesystem::path& job_path,
-               const JobContext& context) {
+               const JobContext& context, const BatchOptions& options) {
   const double start = omp_get_wtime();
-  const bool root = world.rank() == 0;
 
   // 1 Read the job; look at the volume.
   Job job = shared_job(world, job_path);
+  if (options.threads > 0) job.options.threads = options.threads;
+  if (!options.volume.empty()) job.volume = std::filesystem::absolute(options.volume);
   world.collectively([&] { extract::validate(job.options); });
   // The reader throws on all ranks or on none, so that it may stand inside collectively().
   auto reader = world.collectively([&] { return volume::ParallelVolumeReader(world.get(), job.volume); });
   world.collectively([&] { check_volume(reader.info(), job); });
 
   // 2 Which faults are done already?
-  std::vector<std::optional<Part>> parts = world.collectively([&] {
-    if (!root) return std::vector<std::optional<Part>>(job.faults.size());
-    make_folder(job.output);
-    return earlier_parts(job);
+  world.collectively([&] {
+    if (world.rank() == 0) make_folder(job.output);
   });
-  comm::Bytes done(job.faults.size());
-  for (std::size_t n = 0; n < done.size(); ++n)
-    done[n] = static_cast<std::byte>(parts[n].has_value() ? 1 : 0);
-  done = world.broadcast(std::move(done), 0);
-
-  // 3 EXTRACT-ALL over the others.
-  std::vector<extract::Face> faces;
-  std::vector<bool> reused;
-  for (std::size_t n = 0; n < done.size(); ++n) {
-    reused.push_back(done[n] != std::byte{0});
-    if (!reused[n]) faces.insert(faces.end(), job.faults[n].faces.begin(), job.faults[n].faces.end());
+  SharedParts parts(world, job);
+  std::size_t all_faces = 0;
+  for (std::size_t n = 0; n < job.faults.size(); ++n) {
+    if (!parts.done(n)) all_faces += job.faults[n].faces.size();
   }
-  extract::Result result;
-  result.report.exchange = job.options.exchange == "auto" ? "reduce" : job.options.exchange;
-  result.report.balance = job.options.balance;
-  result.report.ranks = world.size();
-  result.report.threads = job.options.threads;
-  if (!faces.empty()) {
-    const extract::Input input{reader.info().dims, reader.info().statistics.max_abs, faces};
+  const auto groups = parts.groups(std::max(kSmallestGroup, all_faces / kMostGroups));
+
+  // 3 EXTRACT-ALL over the others, group by group; the parts of each are on disk before the next.
+  Totals totals(job, world.size());
+  if (!groups.empty()) {
     const auto read = [&](const survey::Box& box, std::span<float> values) {
       reader.read_collective(box, values);
     };
-    result = extract::extract_all(world, input, job.options, read, context.part(0, 0.9));
+    extract::LoadedSurvey survey(world, reader.info().dims, read, context.part(0, 0.5));
+    std::size_t before = 0;
+    for (const std::vector<std::size_t>& group : groups) {
+      std::vector<extract::Face> faces;
+      for (const std::size_t n : group)
+        faces.insert(faces.end(), job.faults[n].faces.begin(), job.faults[n].faces.end());
+      const auto share = [&](std::size_t n) {
+        return all_faces == 0 ? 0.98 : 0.5 + 0.48 * static_cast<double>(n) / static_cast<double>(all_faces);
+      };
+      const extract::Input input{reader.info().dims, reader.info().statistics.max_abs, faces};
+      const extract::Result result =
+          survey.extract(input, job.options, context.part(share(before), share(before + faces.size())));
+      parts.write(group, result.faces);
+      totals.add(result.report);
+      before += faces.size();
+    }
   }
 
-  // 4 One part file for each fault, then the summary. Rank 0 has all results and writes them.
+  // 4 The summary.
+  const extract::Report report = totals.report(world);
   world.collectively([&] {
-    if (!root) return;
-    std::vector<Part> whole;
-    std::size_t next = 0;
-    for (std::size_t n = 0; n < job.faults.size(); ++n) {
-      context.report(0.9 + 0.1 * static_cast<double>(n) / static_cast<double>(job.faults.size()), "write",
-                     fmt::format("{} of {} faults", n, job.faults.size()));
-      const JobFault& fault = job.faults[n];
-      if (reused[n]) {
-        whole.push_back(std::move(*parts[n]));
-        continue;
-      }
-      whole.push_back(new_part(job, fault, std::span(result.faces).subspan(next, fault.faces.size())));
-      next += fault.faces.size();
-      write_part(whole.back(), part_path(job.output, fault.id));
-    }
-    const Json json = summary(job, job_path, result.report, whole, reused, omp_get_wtime() - start);
-    write_whole_file(job.output / "result.json", json.dump(1) + "\n");
+    if (world.rank() != 0) return;
+    const Json json = summary(job, job_path, report, parts, omp_get_wtime() - start);
+    write_whole_file(job.output / "result.json",
+                     json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
     context.report(1, "write", "done");
   });
 }

@@ -6,6 +6,7 @@
 #include "storage/base/error.h"
 #include "storage/base/hash.h"
 #include "storage/base/partial_file.h"
+#include "storage/survey/geometry_json.h"
 
 namespace footwall::session {
 namespace {
@@ -18,56 +19,6 @@ constexpr std::size_t kFacesLimit = std::size_t{16} << 30;
 
 Error bad(const std::string& what) {
   return Error(ErrorCode::kFormat, "JOB.json: " + what, "write the job again");
-}
-
-Json axis_to_json(const survey::LineAxis& axis) {
-  return {{"first", axis.first}, {"step", axis.step}, {"count", axis.count}};
-}
-
-Json geometry_to_json(const survey::Geometry& g) {
-  return {{"inlines", axis_to_json(g.inlines)},
-          {"crosslines", axis_to_json(g.crosslines)},
-          {"samples", g.samples},
-          {"z0", g.z0},
-          {"interval", g.interval},
-          {"domain", name_of(g.domain)},
-          {"vertical_unit", name_of(g.vertical_unit)},
-          {"horizontal_unit", g.horizontal_unit},
-          {"crs", g.crs},
-          {"map",
-           {{"origin_x", g.map.origin_x},
-            {"origin_y", g.map.origin_y},
-            {"per_inline_x", g.map.per_inline_x},
-            {"per_inline_y", g.map.per_inline_y},
-            {"per_crossline_x", g.map.per_crossline_x},
-            {"per_crossline_y", g.map.per_crossline_y}}}};
-}
-
-survey::LineAxis axis_from_json(const Json& json) {
-  return {json.at("first").get<std::int32_t>(), json.at("step").get<std::int32_t>(),
-          json.at("count").get<std::int64_t>()};
-}
-
-survey::Geometry geometry_from_json(const Json& json) {
-  survey::Geometry g;
-  g.inlines = axis_from_json(json.at("inlines"));
-  g.crosslines = axis_from_json(json.at("crosslines"));
-  json.at("samples").get_to(g.samples);
-  json.at("z0").get_to(g.z0);
-  json.at("interval").get_to(g.interval);
-  g.domain = survey::domain_from(json.at("domain").get<std::string>());
-  g.vertical_unit = survey::vertical_unit_from(json.at("vertical_unit").get<std::string>());
-  json.at("horizontal_unit").get_to(g.horizontal_unit);
-  json.at("crs").get_to(g.crs);
-  const Json& map = json.at("map");
-  map.at("origin_x").get_to(g.map.origin_x);
-  map.at("origin_y").get_to(g.map.origin_y);
-  map.at("per_inline_x").get_to(g.map.per_inline_x);
-  map.at("per_inline_y").get_to(g.map.per_inline_y);
-  map.at("per_crossline_x").get_to(g.map.per_crossline_x);
-  map.at("per_crossline_y").get_to(g.map.per_crossline_y);
-  g.validate();
-  return g;
 }
 
 Json optional_number(const std::optional<double>& value) {
@@ -102,9 +53,15 @@ Job header_from_json(const Json& json, const std::filesystem::path& folder,
   job.volume = beside(folder, json.at("volume").at("path"));
   json.at("volume").at("checksum").get_to(job.volume_checksum);
   if (!job.volume_checksum.empty()) hash_from_hex(job.volume_checksum);
-  job.geometry = geometry_from_json(json.at("geometry"));
+  json.at("volume").at("name").get_to(job.volume_name);
+  json.at("volume").at("origin").get_to(job.volume_origin);
+  job.geometry = survey::geometry_from_json(json.at("geometry"));
   for (const Json& fault : json.at("faults")) {
-    job.faults.push_back({fault.at("id").get<std::int64_t>(), fault.at("name").get<std::string>(), {}});
+    job.faults.push_back({fault.at("id").get<std::int64_t>(),
+                          fault.at("name").get<std::string>(),
+                          {},
+                          fault.at("revision").get<std::int64_t>()});
+    if (job.faults.back().name.empty()) throw bad("a fault has no name");
     counts.push_back(fault.at("faces").get<std::size_t>());
   }
   const Json& options = json.at("options");
@@ -116,6 +73,7 @@ Job header_from_json(const Json& json, const std::filesystem::path& folder,
   if (!options.at("velocity").is_null()) job.velocity = options.at("velocity").get<double>();
   if (job.velocity && !(*job.velocity > 0)) throw bad("the velocity must be positive");
   job.output = beside(folder, json.at("output"));
+  json.at("run").get_to(job.run);
   return job;
 }
 
@@ -125,7 +83,10 @@ void write_job(const Job& job, const std::filesystem::path& path) {
   std::vector<extract::Face> faces;
   Json faults = Json::array();
   for (const JobFault& fault : job.faults) {
-    faults.push_back({{"id", fault.id}, {"name", fault.name}, {"faces", fault.faces.size()}});
+    faults.push_back({{"id", fault.id},
+                      {"name", fault.name},
+                      {"revision", fault.revision},
+                      {"faces", fault.faces.size()}});
     for (const extract::Face& face : fault.faces) {
       if (face.fault != fault.id) {
         throw Error(ErrorCode::kInvalid, "a face of fault " + std::to_string(face.fault) +
@@ -138,8 +99,12 @@ void write_job(const Job& job, const std::filesystem::path& path) {
   std::filesystem::path faces_path = path;
   faces_path.replace_extension(".faces");
   const Json json{{"footwall_job", kVersion},
-                  {"volume", {{"path", job.volume.string()}, {"checksum", job.volume_checksum}}},
-                  {"geometry", geometry_to_json(job.geometry)},
+                  {"volume",
+                   {{"path", job.volume.string()},
+                    {"checksum", job.volume_checksum},
+                    {"name", job.volume_name},
+                    {"origin", job.volume_origin}}},
+                  {"geometry", survey::geometry_to_json(job.geometry)},
                   {"faces",
                    {{"path", faces_path.filename().string()},
                     {"count", faces.size()},
@@ -152,9 +117,17 @@ void write_job(const Job& job, const std::filesystem::path& path) {
                     {"threads", job.options.threads},
                     {"compute", job.options.compute},
                     {"velocity", optional_number(job.velocity)}}},
-                  {"output", job.output.string()}};
+                  {"output", job.output.string()},
+                  {"run", job.run}};
+  std::string text;
+  try {
+    text = json.dump(1) + "\n";
+  } catch (const Json::exception&) {
+    throw Error(ErrorCode::kUnsupported,
+                "a job cannot name the path " + job.volume.string() + ": it is not UTF-8", "rename it");
+  }
   write_whole_file(faces_path, bytes);
-  write_whole_file(path, json.dump(1) + "\n");
+  write_whole_file(path, text);
 }
 
 JobFiles read_job_files(const std::filesystem::path& path) {
@@ -216,9 +189,12 @@ std::filesystem::path output_of(const std::filesystem::path& job_path) {
 }
 
 std::uint64_t part_hash(const Job& job, const JobFault& fault) {
+  survey::Geometry geometry = job.geometry;
+  geometry.crs.clear();
+  geometry.assumed.clear();
   const Json settings{{"version", kVersion},
                       {"volume", job.volume_checksum},
-                      {"geometry", geometry_to_json(job.geometry)},
+                      {"geometry", survey::geometry_to_json(geometry)},
                       {"voxelizer", job.options.voxelizer},
                       {"compute", job.options.compute},
                       {"velocity", optional_number(job.velocity)}};
@@ -227,6 +203,12 @@ std::uint64_t part_hash(const Job& job, const JobFault& fault) {
     hasher.add(std::as_bytes(std::span(bytes)));
   }
   return hasher.value();
+}
+
+std::uint64_t job_hash(const Job& job) {
+  std::vector<std::uint64_t> hashes;
+  for (const JobFault& fault : job.faults) hashes.push_back(part_hash(job, fault));
+  return hash64(std::as_bytes(std::span(hashes)));
 }
 
 }  // namespace footwall::session

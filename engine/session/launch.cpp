@@ -2,21 +2,20 @@
 
 #include <signal.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <nlohmann/json.hpp>
 
+#include "engine/session/batch.h"
 #include "engine/session/child.h"
 #include "engine/session/job.h"
+#include "engine/session/launcher.h"
 #include "engine/session/private_folder.h"
 #include "storage/base/error.h"
 #include "storage/base/log.h"
 #include "storage/base/partial_file.h"
-#include "storage/base/text.h"
 
 namespace footwall::session {
 namespace {
@@ -34,45 +33,22 @@ std::filesystem::path engine_beside_us() {
   return self.parent_path() / "footwall-engine";
 }
 
-std::string replaced(std::string word, const std::string& name, int value) {
-  for (std::size_t at = word.find(name); at != std::string::npos; at = word.find(name, at)) {
-    word.replace(at, name.size(), std::to_string(value));
-  }
-  return word;
+int ranks_of(const LaunchOptions& options) {
+  return options.ranks > 0 ? options.ranks : default_ranks();
+}
+int threads_of(const LaunchOptions& options) {
+  return options.threads > 0 ? options.threads : default_threads();
 }
 
-std::string open_mpi_launcher(int ranks, int threads, const std::filesystem::path& folder) {
-  // Without binding, threads of a rank may use all of its cores. The single-copy path is the slower one.
-  // Slots are counted in cores, but a rank may well run on a hardware thread: hence --oversubscribe, always;
-  // ranks that share a core must give way while they wait.
-  std::string words =
-      "mpirun -n {ranks} --bind-to none --oversubscribe --mca btl_vader_single_copy_mechanism none";
-  words += ranks * threads > usable_cores() ? " --mca mpi_yield_when_idle 1" : " --mca mpi_yield_when_idle 0";
-  if (!folder.empty()) {
-    words += " --mca orte_tmpdir_base " + folder.string() + " --mca btl_vader_backing_directory " +
-             folder.string();
-  }
-  return words;
-}
-
-std::vector<std::string> command_in(const LaunchOptions& options, const std::filesystem::path& job,
-                                    const std::filesystem::path& folder) {
-  const int ranks = options.ranks > 0 ? options.ranks : default_ranks();
-  const char* custom = std::getenv("FOOTWALL_LAUNCHER");
-  const std::string launcher =
-      custom != nullptr && *custom != '\0' ? custom : open_mpi_launcher(ranks, options.threads, folder);
-  std::vector<std::string> command;
-  for (const std::string_view word : text::words(launcher)) {
-    command.push_back(replaced(replaced(std::string(word), "{ranks}", ranks), "{threads}", options.threads));
-  }
+std::vector<std::string> with_engine(std::vector<std::string> command, const LaunchOptions& options,
+                                     const std::filesystem::path& job) {
   command.push_back((options.engine.empty() ? engine_beside_us() : options.engine).string());
   command.insert(command.end(), {"batch", std::filesystem::absolute(job).string()});
+  if (!options.volume.empty()) {
+    command.insert(command.end(), {"--volume", std::filesystem::absolute(options.volume).string()});
+  }
+  if (options.threads > 0) command.insert(command.end(), {"--threads", std::to_string(options.threads)});
   return command;
-}
-
-std::vector<std::string> settings_of() {
-  if (geteuid() != 0) return {};
-  return {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
 }
 
 std::string how_it_ended(int status) {
@@ -161,7 +137,7 @@ class Stopper {
 }  // namespace
 
 std::vector<std::string> launch_command(const LaunchOptions& options, const std::filesystem::path& job) {
-  return command_in(options, job, {});
+  return with_engine(choose_launcher(ranks_of(options), threads_of(options), {}).words, options, job);
 }
 
 std::string run_engine(const LaunchOptions& options, const std::filesystem::path& job_path,
@@ -171,7 +147,8 @@ std::string run_engine(const LaunchOptions& options, const std::filesystem::path
   std::error_code ignored;
   std::filesystem::remove(result, ignored);  // an older one must not be taken for this run's
   const PrivateFolder folder(home_in_memory());
-  Child child(command_in(options, job_path, folder.path()), settings_of());
+  const Launcher launcher = choose_launcher(ranks_of(options), threads_of(options), folder.path());
+  Child child(with_engine(launcher.words, options, job_path), launcher.settings);
   Listener listener(job);
   Stopper stopper;
   while (child.read_lines(100, [&](const std::string& line) { listener.line(line); })) {
@@ -183,6 +160,10 @@ std::string run_engine(const LaunchOptions& options, const std::filesystem::path
     throw Error(ErrorCode::kEngine, "the engine ended without a result", listener.last_words());
   }
   job.check();
+  // srun and mpirun end with the status of the ranks.
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kResumable) {
+    throw Preempted(listener.error().value_or(Error(ErrorCode::kCancelled, "the ranks were told to stop")));
+  }
   if (listener.error()) throw *listener.error();
   const std::string words = listener.last_words();
   throw Error(ErrorCode::kEngine, "the engine " + how_it_ended(status),

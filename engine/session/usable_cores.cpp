@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "engine/session/launch.h"
+#include "engine/session/launcher.h"
 #include "storage/base/text.h"
 
 namespace footwall::session {
@@ -53,7 +54,11 @@ int usable_cores() {
 }
 
 int default_ranks() {
-  return std::min(4, usable_cores());
+  return current_allocation().tasks.value_or(std::min(4, usable_cores()));
+}
+
+int default_threads() {
+  return current_allocation().cpus_per_task.value_or(1);
 }
 
 }  // namespace footwall::session

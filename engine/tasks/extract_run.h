@@ -1,25 +1,12 @@
 // EXTRACT-ALL on the faults of a project: triangulates what is stale, launches the engine, attaches the
 // result.
 #pragma once
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/extract/face.h"
-#include "engine/session/launch.h"
-#include "storage/base/job_context.h"
-#include "storage/project/project.h"
+#include "engine/tasks/job_of_project.h"
 
 namespace footwall::tasks {
-
-struct ExtractOptions {
-  std::string volume;  // empty: the first one
-  std::string fault;   // empty: all
-  std::string name;    // of the run; empty: "run N"
-  extract::Options engine;
-  session::LaunchOptions launch;
-  std::optional<double> velocity;  // m/s, for metres in a time survey
-};
 
 struct Extracted {
   std::int64_t run = 0;

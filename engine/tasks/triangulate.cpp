@@ -82,17 +82,14 @@ project::MeshRecord mesh_record(const survey::Geometry& survey, const project::F
 }
 
 // A fault that is an imported surface has its triangles already.
-Triangulated adopt_surface(project::Project& project, const project::FaultRecord& fault,
-                           const project::SurfaceRecord& record) {
-  Triangulated done;
-  done.fault = fault.name;
+project::MeshRecord adopted_mesh(const project::Project& project, const project::FaultRecord& fault,
+                                 const project::SurfaceRecord& record, std::vector<std::string>* notes) {
   survey::Surface surface = surface_in_survey(project, record);
   surface.name = fault.name;
-  const project::MeshRecord mesh = imported_mesh(surface, fault.revision, done.notes);
-  project.store_mesh(fault.id, mesh);
-  done.vertices = static_cast<std::int64_t>(mesh.vertices.size());
-  done.faces = static_cast<std::int64_t>(mesh.faces.size());
-  return done;
+  std::vector<std::string> cuts;
+  project::MeshRecord mesh = imported_mesh(surface, fault.revision, cuts);
+  if (notes != nullptr) *notes = std::move(cuts);
+  return mesh;
 }
 
 }  // namespace
@@ -113,21 +110,30 @@ std::vector<project::FaultRecord> chosen_faults(const project::Project& project,
   return faults;
 }
 
-Triangulated triangulate_fault(project::Project& project, const project::FaultRecord& fault,
-                               const TriangulateOptions& options, const JobContext& job) {
-  if (const auto surface = project.surface_of(fault.id)) return adopt_surface(project, fault, *surface);
+project::MeshRecord mesh_of_fault(const project::Project& project, const project::FaultRecord& fault,
+                                  const TriangulateOptions& options, const JobContext& job,
+                                  std::vector<std::string>* notes) {
+  if (const auto surface = project.surface_of(fault.id)) return adopted_mesh(project, fault, *surface, notes);
   const survey::Geometry survey = required_survey(project, "triangulation");
   const std::vector<survey::Pillar> stored = project.pillars(fault.id);
   try {
     const pillars::FaultMesh mesh =
         pillars::triangulate(inputs(survey, stored), {options.detail, options.max_edge, options.tie},
                              options.rechart ? std::nullopt : stored_chart(project, fault), job);
-    project.store_mesh(fault.id, mesh_record(survey, fault, stored, mesh, options));
-    return {fault.name, static_cast<std::int64_t>(mesh.vertices.size()),
-            static_cast<std::int64_t>(mesh.faces.size()), mesh.notes};
+    if (notes != nullptr) *notes = mesh.notes;
+    return mesh_record(survey, fault, stored, mesh, options);
   } catch (const Error& error) {
     throw about(fault, error);
   }
+}
+
+Triangulated triangulate_fault(project::Project& project, const project::FaultRecord& fault,
+                               const TriangulateOptions& options, const JobContext& job) {
+  std::vector<std::string> notes;
+  const project::MeshRecord mesh = mesh_of_fault(project, fault, options, job, &notes);
+  project.store_mesh(fault.id, mesh);
+  return {fault.name, static_cast<std::int64_t>(mesh.vertices.size()),
+          static_cast<std::int64_t>(mesh.faces.size()), notes};
 }
 
 std::int64_t interpolate_fault(project::Project& project, const project::FaultRecord& fault,

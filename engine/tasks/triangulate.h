@@ -29,6 +29,11 @@ struct Triangulated {
 Triangulated triangulate_fault(project::Project& project, const project::FaultRecord& fault,
                                const TriangulateOptions& options, const JobContext& job);
 
+// The same without storing it: the mesh that triangulate_fault would store.
+project::MeshRecord mesh_of_fault(const project::Project& project, const project::FaultRecord& fault,
+                                  const TriangulateOptions& options, const JobContext& job,
+                                  std::vector<std::string>* notes = nullptr);
+
 struct InterpolateOptions {
   std::optional<double> every;      // lines between pillars
   std::optional<double> tolerance;  // voxels between the thin plate and straight lines; one of the two

@@ -7,61 +7,12 @@
 
 #include "storage/base/error.h"
 #include "storage/base/hash.h"
+#include "storage/survey/geometry_json.h"
 
 namespace footwall::volume {
 namespace {
 
 using nlohmann::json;
-using survey::Geometry;
-
-json axis_json(const survey::LineAxis& axis) {
-  return {{"first", axis.first}, {"step", axis.step}, {"count", axis.count}};
-}
-
-survey::LineAxis axis_from(const json& j) {
-  return {j.at("first").get<std::int32_t>(), j.at("step").get<std::int32_t>(),
-          j.at("count").get<std::int64_t>()};
-}
-
-json geometry_json(const Geometry& g) {
-  return {{"inlines", axis_json(g.inlines)},
-          {"crosslines", axis_json(g.crosslines)},
-          {"samples", g.samples},
-          {"z0", g.z0},
-          {"interval", g.interval},
-          {"domain", survey::name_of(g.domain)},
-          {"vertical_unit", survey::name_of(g.vertical_unit)},
-          {"map",
-           {{"origin_x", g.map.origin_x},
-            {"origin_y", g.map.origin_y},
-            {"per_inline_x", g.map.per_inline_x},
-            {"per_inline_y", g.map.per_inline_y},
-            {"per_crossline_x", g.map.per_crossline_x},
-            {"per_crossline_y", g.map.per_crossline_y}}},
-          {"crs", g.crs},
-          {"horizontal_unit", g.horizontal_unit},
-          {"assumed", g.assumed}};
-}
-
-Geometry geometry_from(const json& j) {
-  Geometry g;
-  g.inlines = axis_from(j.at("inlines"));
-  g.crosslines = axis_from(j.at("crosslines"));
-  g.samples = j.at("samples").get<std::int64_t>();
-  g.z0 = j.at("z0").get<double>();
-  g.interval = j.at("interval").get<double>();
-  g.domain = survey::domain_from(j.at("domain").get<std::string>());
-  g.vertical_unit = survey::vertical_unit_from(j.at("vertical_unit").get<std::string>());
-  const json& map = j.at("map");
-  g.map = {map.at("origin_x").get<double>(),        map.at("origin_y").get<double>(),
-           map.at("per_inline_x").get<double>(),    map.at("per_inline_y").get<double>(),
-           map.at("per_crossline_x").get<double>(), map.at("per_crossline_y").get<double>()};
-  g.crs = j.at("crs").get<std::string>();
-  g.horizontal_unit = j.at("horizontal_unit").get<std::string>();
-  g.assumed = j.at("assumed").get<std::vector<std::string>>();
-  g.validate();
-  return g;
-}
 
 json statistics_json(const Statistics& s) {
   return {{"min", s.min},
@@ -140,7 +91,7 @@ Description describe(const VolumeInfo& info) {
   const auto text = [](const json& j) { return j.dump(-1, ' ', false, json::error_handler_t::replace); };
   return {{"format", text(kFormatName)},
           {"version", text(kFormatVersion)},
-          {"geometry", text(geometry_json(info.geometry))},
+          {"geometry", text(survey::geometry_to_json(info.geometry))},
           {"origin", text(info.origin)},
           {"role", text(name_of(info.role))},
           {"high_is_fault", text(info.high_is_fault)},
@@ -168,7 +119,7 @@ VolumeInfo info_from(const Description& description, const std::filesystem::path
                   "open it with a newer Footwall");
     }
     if (version < 1) throw Error(ErrorCode::kFormat, fmt::format("there is no version {}", version));
-    info.geometry = geometry_from(value("geometry"));
+    info.geometry = survey::geometry_from_json(value("geometry"));
     info.dims = info.geometry.dims();
     info.origin = value("origin").get<survey::Index>();
     info.role = role_from(value("role").get<std::string>());

@@ -4,6 +4,8 @@
 
 namespace footwall::commands {
 
+void add_attach(console::Program& program);
+void add_batch(console::Program& program);
 void add_new(console::Program& program);
 void add_import(console::Program& program);
 void add_info(console::Program& program);

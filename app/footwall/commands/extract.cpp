@@ -1,46 +1,139 @@
-// footwall extract: EXTRACT-ALL on the engine, the result attached to the project.
+// footwall extract: EXTRACT-ALL on the engine, the result attached to the project; or a forecast of it; or
+// the job as a folder.
 #include <fmt/format.h>
 #include <cmath>
 #include <memory>
 
 #include "app/footwall/commands/commands.h"
+#include "app/footwall/commands/launch_options.h"
 #include "app/footwall/commands/options.h"
 #include "engine/extract/registry.h"
 #include "engine/tasks/extract_run.h"
+#include "engine/tasks/forecast.h"
+#include "engine/tasks/write_job.h"
 #include "storage/base/text.h"
 
 namespace footwall::commands {
 namespace {
 
 struct Options {
-  std::string project, compute;
-  std::optional<int> ranks;
+  std::string project, compute, job_folder;
+  bool dry_run = false;
+  bool with_volume = false;
+  EngineOptions engine;
   tasks::ExtractOptions how;
 };
 
-// More ranks than this on one machine are a slip of the pen, which mpirun takes minutes to fail at.
-constexpr int kMostRanks = 1024;
-
-void check_counts(Options& options) {
-  if (options.ranks.value_or(1) < 1 || options.ranks.value_or(1) > kMostRanks) {
-    throw Error(ErrorCode::kUsage, fmt::format("there cannot be {} ranks", *options.ranks),
-                fmt::format("give 1 to {}, or leave --ranks out for the machine's own", kMostRanks));
-  }
-  options.how.launch.ranks = options.ranks.value_or(0);
-  if (options.how.launch.threads < 1) {
-    throw Error(ErrorCode::kUsage, "--threads must be at least 1", "leave it out for one");
-  }
+void check(Options& options) {
+  options.how.launch = options.engine.launch();
   if (options.how.velocity && !(*options.how.velocity > 0 && std::isfinite(*options.how.velocity))) {
     throw Error(ErrorCode::kUsage, fmt::format("--velocity {} is no velocity", *options.how.velocity),
                 "give a number above 0, in m/s");
   }
+  if (options.dry_run && !options.job_folder.empty()) {
+    throw Error(ErrorCode::kUsage, "--dry-run changes nothing, so it cannot go with --write-job",
+                "leave one of them out; --write-job prints the same forecast");
+  }
+  if (options.with_volume && options.job_folder.empty()) {
+    throw Error(ErrorCode::kUsage, "--with-volume is about --write-job", "add --write-job FOLDER");
+  }
+}
+
+// Seconds with two digits that mean something.
+std::string seconds(double value) {
+  return fmt::format("{:.{}f} s", value, value < 10 ? 1 : 0);
+}
+
+console::Json forecast_json(const tasks::Forecast& f) {
+  return {{"command", f.command},
+          {"launcher", f.launcher},
+          {"ranks", f.ranks},
+          {"threads", f.threads},
+          {"faces", f.faces},
+          {"voxels", f.voxels},
+          {"voxels_counted", f.voxels_exact ? "exactly" : "estimated"},
+          {"load_max_over_mean", f.load_max_over_mean},
+          {"memory_per_rank",
+           {{"program", f.memory.program},
+            {"bricks", f.memory.bricks},
+            {"reading", f.memory.reading},
+            {"mesh", f.memory.mesh},
+            {"exchange", f.memory.exchange},
+            {"total", f.memory.total()}}},
+          {"bytes_to_read", f.bytes_to_read},
+          {"seconds",
+           {{"start", f.seconds.start},
+            {"read", f.seconds.read},
+            {"compute", f.seconds.compute},
+            {"write", f.seconds.write},
+            {"total", f.seconds.total()}}},
+          {"based_on", f.based_on}};
+}
+
+std::string forecast_in_words(const tasks::Forecast& f) {
+  constexpr double kMega = 1e6;
+  const auto mega = [](std::int64_t bytes) { return static_cast<double>(bytes) / kMega; };
+  std::string text = fmt::format("{} faces, {} voxels ({}), on {} ranks of {} threads\n", f.faces, f.voxels,
+                                 f.voxels_exact ? "counted" : "estimated", f.ranks, f.threads);
+  text += fmt::format(
+      "memory of a rank   {:.0f} MB: program {:.0f}, bricks {:.0f}, reading {:.0f}, mesh {:.1f}, exchange "
+      "{:.1f}\n",
+      mega(f.memory.total()), mega(f.memory.program), mega(f.memory.bricks), mega(f.memory.reading),
+      mega(f.memory.mesh), mega(f.memory.exchange));
+  text += fmt::format("to read            {:.0f} MB\n", mega(f.bytes_to_read));
+  text += fmt::format("time               {}: start {}, read {}, compute {}, write {}\n",
+                      seconds(f.seconds.total()), seconds(f.seconds.start), seconds(f.seconds.read),
+                      seconds(f.seconds.compute), seconds(f.seconds.write));
+  text += fmt::format("from               {}\n", f.based_on);
+  return text;
+}
+
+tasks::Forecast forecast_of(const Options& options, const session::Job& job, const std::string& job_path,
+                            int cores, const console::Console& console) {
+  return tasks::forecast(job, options.how.launch, job_path, cores, console.job().part(0.1, 0.9));
+}
+
+console::Output dry_run(const Options& options, const console::Console& console) {
+  project::Project project = open_project(options.project, project::OpenMode::kRead);
+  const tasks::JobOfProject made = tasks::job_of_project(
+      project, options.how, tasks::FreshMeshes::kThrownAway, console.job().part(0, 0.1));
+  const tasks::Forecast forecast =
+      forecast_of(options, made.job, "JOB.json", session::usable_cores(), console);
+  console::Output output{forecast_json(forecast), forecast_in_words(forecast)};
+  output.json["volume"] = made.job.volume_name;
+  output.json["triangulated"] = made.triangulated;
+  output.json["skipped"] = made.skipped;
+  output.text += fmt::format("{}\n  {}\n", forecast.launcher, fmt::join(forecast.command, " "));
+  return output;
+}
+
+console::Output write_job(const Options& options, const console::Console& console) {
+  project::Project project = open_project(options.project, project::OpenMode::kWrite);
+  const tasks::JobOfProject made =
+      tasks::job_of_project(project, options.how, tasks::FreshMeshes::kStored, console.job().part(0, 0.1));
+  const tasks::Forecast forecast =
+      forecast_of(options, made.job, options.job_folder + "/JOB.json", 0, console);
+  tasks::write_job_folder(made.job, forecast, options.job_folder, options.with_volume,
+                          console.job().part(0.9, 1));
+  project.close();
+  console::Output output{{{"job", options.job_folder + "/JOB.json"},
+                          {"volume", made.job.volume_name},
+                          {"with_volume", options.with_volume},
+                          {"forecast", forecast_json(forecast)},
+                          {"triangulated", made.triangulated},
+                          {"skipped", made.skipped}},
+                         forecast_in_words(forecast)};
+  output.text += fmt::format("{} holds the job; its README.txt says how to run it\n", options.job_folder);
+  return output;
 }
 
 console::Output run(Options& options, const console::Console& console) {
   for (const std::string_view name : text::split(options.compute, ',')) {
     if (!name.empty()) options.how.engine.compute.emplace_back(name);
   }
-  check_counts(options);
+  check(options);
+  if (options.dry_run) return dry_run(options, console);
+  if (!options.job_folder.empty()) return write_job(options, console);
   project::Project project = open_project(options.project, project::OpenMode::kWrite);
   const tasks::Extracted done = tasks::extract_run(project, options.how, console.job());
   project.close();
@@ -48,17 +141,10 @@ console::Output run(Options& options, const console::Console& console) {
   const console::Json result = console::Json::parse(done.result_json);
   console::Output output;
   output.json = {{"run", done.run}, {"volume", done.volume}};
-  for (const char* key : {"faces", "voxels", "ranks", "threads", "exchange", "balance", "voxelizer",
-                          "seconds", "bytes_sent", "messages", "load_max_over_mean", "checksum"}) {
-    output.json[key] = result.at(key);
-  }
+  add_result(result, output.json);
   output.json["triangulated"] = done.triangulated;
   output.json["skipped"] = done.skipped;
-  output.text =
-      fmt::format("run {}: {} faces, {} voxels of volume {} on {} ranks in {:.2f} s; checksum {}\n", done.run,
-                  result.at("faces").get<std::int64_t>(), result.at("voxels").get<std::int64_t>(),
-                  done.volume, result.at("ranks").get<int>(), result.at("seconds").at("total").get<double>(),
-                  result.at("checksum").get<std::string>());
+  output.text = fmt::format("run {}: {} of volume {}\n", done.run, result_in_words(result), done.volume);
   return output;
 }
 
@@ -82,9 +168,7 @@ void add_extract(console::Program& program) {
   command->add_option("--volume", how.volume, "The volume (default: the first)");
   command->add_option("--fault", how.fault, "Only this fault (default: all)");
   command->add_option("--name", how.name, "Name of the run (default: run N)");
-  command->add_option("--ranks", options->ranks,
-                      "MPI ranks (default: the smaller of 4 and the usable cores)");
-  command->add_option("--threads", how.launch.threads, "Threads of each rank (default 1)");
+  options->engine.add_to(*command);
   command->add_option(
       "--exchange", how.engine.exchange,
       "How values reach a face's rank: " + names(extract::exchange_rows()) + " (default auto)");
@@ -97,6 +181,12 @@ void add_extract(console::Program& program) {
                       "Statistics, comma separated: " + names(extract::statistic_rows()) + " (default: all)");
   command->add_option("--velocity", how.velocity,
                       "m/s: gives area and dip in metres and degrees in a time survey");
+  command->add_flag("--dry-run", options->dry_run,
+                    "Only tell what it would need: memory, bytes to read, seconds; changes nothing");
+  command->add_option(
+      "--write-job", options->job_folder,
+      "Only write the job into this folder, to be run elsewhere (footwall attach brings it back)");
+  command->add_flag("--with-volume", options->with_volume, "With --write-job: put the volume there too");
 }
 
 }  // namespace footwall::commands

@@ -15,6 +15,7 @@ using Json = nlohmann::ordered_json;
 struct Output {
   Json json;
   std::string text;
+  int status = 0;  // exit status; 75: stopped, and run again it goes on
 };
 
 class Console {

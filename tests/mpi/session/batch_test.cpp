@@ -137,6 +137,62 @@ TEST_F(Batch, ARerunSkipsWholePartsAndMendsTheOthers) {
   });
 }
 
+TEST_F(Batch, AStoppedJobKeepsTheFaultsThatAreDone) {
+  const std::vector<extract::Face> faces = small_faces(1, 20000);
+  on_root([&] {
+    Job big = job;
+    big.faults.clear();
+    for (const std::int64_t id : {1, 2, 3}) {
+      big.faults.push_back({id, "fault " + std::to_string(id), faces});
+      for (extract::Face& face : big.faults.back().faces) face.fault = id;
+    }
+    write_job(big, path / "JOB.json");
+  });
+  const auto parts_there = [&] {
+    int there = 0;
+    for (const std::int64_t id : {1, 2, 3})
+      there += std::filesystem::exists(part_path(path / "out", id)) ? 1 : 0;
+    return there;
+  };
+  // Every rank asks to stop as soon as the first part is there.
+  JobContext* running = nullptr;
+  JobContext context([&](const Progress&) {
+    if (parts_there() > 0) running->cancel();
+  });
+  running = &context;
+  try {
+    run_batch(world, path / "JOB.json", context);
+    ADD_FAILURE() << "it was not stopped";
+  } catch (const comm::AgreedError& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kCancelled);
+  }
+  EXPECT_EQ(parts_there(), 1);
+  EXPECT_FALSE(std::filesystem::exists(path / "out" / "result.json"));
+  nlohmann::json checksum;    // on rank 0
+  world.collectively([] {});  // nobody goes on before all have looked
+  run();
+  on_root([&] {
+    const nlohmann::json json = result();
+    EXPECT_TRUE(json["parts"][0]["reused"]);
+    EXPECT_FALSE(json["parts"][1]["reused"]);
+    EXPECT_EQ(json["faces"], 60000);
+    checksum = json["checksum"];
+    std::filesystem::remove_all(path / "out");
+  });
+  run();
+  on_root([&] {
+    EXPECT_FALSE(result()["parts"][0]["reused"]);
+    EXPECT_EQ(result()["checksum"], checksum);
+  });
+}
+
+TEST_F(Batch, TheVolumeMayBeElsewhere) {
+  on_root([&] { std::filesystem::rename(path / "volume.h5", path / "moved.h5"); });
+  EXPECT_EQ(error_of_run()->code(), ErrorCode::kNotFound);
+  run_batch(world, path / "JOB.json", {}, {path / "moved.h5", 2});
+  on_root([&] { EXPECT_EQ(result()["threads"], 2); });
+}
+
 TEST_F(Batch, TroubleIsTheSameErrorOnAllRanks) {
   const auto expect = [&](ErrorCode code, const std::string& words) {
     const std::optional<Error> error = error_of_run();

@@ -24,6 +24,11 @@ TEST(Job, ReadsBackAsItWasWritten) {
   written.options.compute = {"variance"};
   written.options.threads = 3;
   written.velocity = 2500;
+  written.volume_name = "near";
+  written.volume_origin = {4, 0, 7};
+  written.run = "night run";
+  written.faults[1].revision = 12;
+  written.geometry.assumed = {"the interval"};
   write_job(written, folder.path() / "JOB.json");
   const Job read = read_job(folder.path() / "JOB.json");
   EXPECT_EQ(read.geometry, written.geometry);
@@ -33,6 +38,10 @@ TEST(Job, ReadsBackAsItWasWritten) {
   EXPECT_EQ(read.output, folder.path() / "out");
   ASSERT_EQ(read.faults.size(), 3U);
   EXPECT_EQ(read.faults[1].name, "Klüft 2");
+  EXPECT_EQ(read.faults[1].revision, 12);
+  EXPECT_EQ(read.volume_name, "near");
+  EXPECT_EQ(read.volume_origin, (survey::Index{4, 0, 7}));
+  EXPECT_EQ(read.run, "night run");
   for (std::size_t n = 0; n < 3; ++n) EXPECT_EQ(read.faults[n].faces, written.faults[n].faces);
 }
 
@@ -44,7 +53,12 @@ TEST(Job, ThePartHashKnowsWhatChangesNumbers) {
   same.options.exchange = "minimum";
   same.options.threads = 9;
   same.output = "elsewhere";
+  same.geometry.crs = "EPSG:23031";
+  same.geometry.assumed = {"the interval"};
+  same.faults[0].name = "renamed";
+  same.faults[0].revision = 5;
   EXPECT_EQ(part_hash(same, same.faults[0]), hash);
+  EXPECT_EQ(job_hash(same), job_hash(job));
   Job other = job;
   other.faults[0].faces[3].triangle[1].k += 1;
   EXPECT_NE(part_hash(other, other.faults[0]), hash);

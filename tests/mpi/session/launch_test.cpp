@@ -15,7 +15,9 @@ class Launch : public testing::Test {
  protected:
   Launch() {
     write_small_job(folder.path());
-    unsetenv("FOOTWALL_LAUNCHER");
+    // The tests may themselves run in an allocation.
+    for (const char* name : {"FOOTWALL_LAUNCHER", "SLURM_JOB_ID", "SLURM_NTASKS", "SLURM_CPUS_PER_TASK"})
+      unsetenv(name);
   }
   ~Launch() override { unsetenv("FOOTWALL_LAUNCHER"); }
 
@@ -106,9 +108,15 @@ TEST_F(Launch, TheCommandIsConfigurable) {
   options.engine = "/opt/footwall-engine";
   EXPECT_EQ(launch_command(options, "/jobs/JOB.json"),
             (std::vector<std::string>{"srun", "-n", "5", "-c", "6", "/opt/footwall-engine", "batch",
-                                      "/jobs/JOB.json"}));
+                                      "/jobs/JOB.json", "--threads", "6"}));
   EXPECT_GE(usable_cores(), 1);
   EXPECT_LE(default_ranks(), 4);
+  EXPECT_EQ(default_threads(), 1);
+}
+
+TEST_F(Launch, RanksThatMustMakeRoomCanGoOn) {
+  launch_with("exit 75");
+  EXPECT_THROW(run(2), Preempted);
 }
 
 }  // namespace

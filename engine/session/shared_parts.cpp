@@ -1,0 +1,130 @@
+#include "engine/session/shared_parts.h"
+
+#include <cstring>
+
+#include "engine/extract/face_geometry.h"
+#include "engine/session/part_file.h"
+
+namespace footwall::session {
+namespace {
+
+using Statistics = std::vector<extract::FaceStatistics>;
+static_assert(std::is_trivially_copyable_v<extract::FaceStatistics>);
+
+void append(std::span<const extract::FaceStatistics> statistics, comm::Bytes& bytes) {
+  const auto raw = std::as_bytes(statistics);
+  bytes.insert(bytes.end(), raw.begin(), raw.end());
+}
+
+// Takes the statistics of `faces` faces off the front.
+Statistics taken(std::span<const std::byte>& bytes, std::size_t faces) {
+  Statistics statistics(faces);
+  const std::size_t size = faces * sizeof(extract::FaceStatistics);
+  require(bytes.size() >= size, "the statistics of all faces");
+  if (size > 0) std::memcpy(statistics.data(), bytes.data(), size);
+  bytes = bytes.subspan(size);
+  return statistics;
+}
+
+std::optional<Statistics> earlier_part(const Job& job, const JobFault& fault) {
+  const std::filesystem::path path = part_path(job.output, fault.id);
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  try {
+    Part part = read_part(path);
+    if (part.hash == part_hash(job, fault) && part.faces == fault.faces) return std::move(part.statistics);
+  } catch (const Error&) {
+    // Not whole, or not ours: it is computed and written again.
+  }
+  return std::nullopt;
+}
+
+Part new_part(const Job& job, const JobFault& fault, Statistics statistics) {
+  Part part{fault.id, fault.name, part_hash(job, fault), fault.faces, std::move(statistics), {}};
+  part.geometry.reserve(part.faces.size());
+  for (const extract::Face& face : part.faces) {
+    part.geometry.push_back(extract::face_geometry(job.geometry, face.triangle, job.velocity));
+  }
+  return part;
+}
+
+}  // namespace
+
+SharedParts::SharedParts(const comm::Communicator& world, const Job& job)
+    : world_(world.get()), job_(job), done_(job.faults.size()), statistics_(job.faults.size()) {
+  const std::size_t faults = job.faults.size();
+  const auto ranks = static_cast<std::size_t>(world_.size());
+  // 1 Every rank looks for its own parts, and tells all ranks which it has; rank 0 gets what is in them.
+  const std::vector<comm::Bytes> heard = world_.exchange(world_.collectively([&] {
+    comm::Bytes found;
+    comm::Bytes contents;
+    for (std::size_t n = 0; n < faults; ++n) {
+      if (writer_of(n) != world_.rank()) continue;
+      const std::optional<Statistics> part = earlier_part(job_, job_.faults[n]);
+      found.push_back(static_cast<std::byte>(part.has_value() ? 1 : 0));
+      if (part) append(*part, contents);
+    }
+    std::vector<comm::Bytes> outgoing(ranks, found);
+    outgoing[0].insert(outgoing[0].end(), contents.begin(), contents.end());
+    return outgoing;
+  }));
+  // 2 Everyone notes the same.
+  world_.collectively([&] {
+    for (std::size_t r = 0; r < ranks; ++r) {
+      std::vector<std::size_t> theirs;
+      for (std::size_t n = r; n < faults; n += ranks) theirs.push_back(n);
+      require(heard[r].size() >= theirs.size(), "a word about every part");
+      std::span<const std::byte> contents = std::span(heard[r]).subspan(theirs.size());
+      for (std::size_t each = 0; each < theirs.size(); ++each) {
+        const std::size_t n = theirs[each];
+        done_[n] = heard[r][each] != std::byte{0};
+        if (done_[n] && world_.rank() == 0) statistics_[n] = taken(contents, job_.faults[n].faces.size());
+      }
+    }
+    reused_ = done_;
+  });
+}
+
+std::vector<std::vector<std::size_t>> SharedParts::groups(std::size_t faces) const {
+  std::vector<std::vector<std::size_t>> all;
+  std::size_t held = faces;
+  for (std::size_t n = 0; n < done_.size(); ++n) {
+    if (done_[n]) continue;
+    if (held >= faces) {
+      all.emplace_back();
+      held = 0;
+    }
+    all.back().push_back(n);
+    held += job_.faults[n].faces.size();
+  }
+  return all;
+}
+
+void SharedParts::write(const std::vector<std::size_t>& faults,
+                        std::span<const extract::FaceStatistics> statistics) {
+  // 1 Rank 0 gives every rank the statistics of the parts that it writes.
+  const std::vector<comm::Bytes> heard = world_.exchange(world_.collectively([&] {
+    std::vector<comm::Bytes> outgoing(static_cast<std::size_t>(world_.size()));
+    if (world_.rank() != 0) return outgoing;
+    std::size_t next = 0;
+    for (const std::size_t n : faults) {
+      const std::size_t count = job_.faults[n].faces.size();
+      const auto part = statistics.subspan(next, count);
+      append(part, outgoing[static_cast<std::size_t>(writer_of(n))]);
+      statistics_[n].assign(part.begin(), part.end());
+      next += count;
+    }
+    return outgoing;
+  }));
+  // 2 Each writes its own.
+  world_.collectively([&] {
+    std::span<const std::byte> rest(heard[0]);
+    for (const std::size_t n : faults) {
+      if (writer_of(n) != world_.rank()) continue;
+      const JobFault& fault = job_.faults[n];
+      write_part(new_part(job_, fault, taken(rest, fault.faces.size())), part_path(job_.output, fault.id));
+    }
+  });
+  for (const std::size_t n : faults) done_[n] = true;
+}
+
+}  // namespace footwall::session

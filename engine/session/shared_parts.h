@@ -1,0 +1,37 @@
+// The part files of a job, shared out over ranks: the part of fault n is read and written by rank n mod
+// ranks.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "engine/comm/communicator.h"
+#include "engine/session/job.h"
+
+namespace footwall::session {
+
+class SharedParts {
+ public:
+  // Collective. `job` must outlive this. Looks for the whole parts of an earlier run that belong to this very
+  // job (the others, also damaged ones, are as good as not there), and brings their statistics to rank 0.
+  SharedParts(const comm::Communicator& world, const Job& job);
+
+  bool done(std::size_t fault) const { return done_[fault]; }
+  bool reused(std::size_t fault) const { return reused_[fault]; }
+  // Faults that are not done, in groups of about `faces` faces.
+  std::vector<std::vector<std::size_t>> groups(std::size_t faces) const;
+  // Collective: writes the parts of `faults`. `statistics`, on rank 0, has those of their faces one after the
+  // other; it is not looked at elsewhere. Throws kIo on all ranks.
+  void write(const std::vector<std::size_t>& faults, std::span<const extract::FaceStatistics> statistics);
+  // On rank 0: the statistics of every fault that is done, one per face.
+  const std::vector<std::vector<extract::FaceStatistics>>& statistics() const { return statistics_; }
+
+ private:
+  int writer_of(std::size_t fault) const { return static_cast<int>(fault) % world_.size(); }
+
+  comm::Communicator world_;
+  const Job& job_;
+  std::vector<bool> done_, reused_;
+  std::vector<std::vector<extract::FaceStatistics>> statistics_;
+};
+
+}  // namespace footwall::session

@@ -1,0 +1,268 @@
+"""Jobs for clusters: written here, run elsewhere, brought back; forecasts; what happens when a run is stopped or killed."""
+import json
+import os
+import pathlib
+import select
+import shutil
+import signal
+import stat
+import subprocess
+import unittest
+
+from support import BIN, FootwallTest
+
+MPIRUN = ["mpirun", "--bind-to", "none", "--oversubscribe", "-n"]
+AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+
+
+def children(process):
+    """The ids of all processes below this one."""
+    found = []
+    try:
+        below = pathlib.Path(f"/proc/{process}/task/{process}/children").read_text().split()
+    except OSError:
+        return found
+    for child in map(int, below):
+        found += [child, *children(child)]
+    return found
+
+
+def is_rank(process):
+    try:
+        return b"footwall-engine" in pathlib.Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0")[0]
+    except OSError:
+        return False
+
+
+class Jobs(FootwallTest):
+    def engine(self, ranks, *arguments, env=None, folder=None):
+        return subprocess.run([*MPIRUN, str(ranks), str(BIN / "footwall-engine"), *map(str, arguments)], capture_output=True,
+                              text=True, cwd=folder or self.folder, timeout=300, env={**os.environ, **AS_ROOT, **(env or {})})
+
+    def script(self, name, text):
+        path = self.folder / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text("#!/bin/bash\n" + text)
+        path.chmod(path.stat().st_mode | stat.S_IXUSR)
+        return path
+
+    def move_a_node(self, project, fault):
+        nodes = [f for f in self.footwall("faults", project)["faults"] if f["name"] == fault][0]["pillars"][0]["nodes"]
+        node = nodes[0]
+        line = {"op": "move", "what": "node", "node": node["id"], "x": node["x"] + 60, "y": node["y"], "z": node["z"]}
+        self.assertEqual(self.start("edit", project, stdin=json.dumps(line)).returncode, 0)
+
+    def test_a_job_runs_in_a_copy_of_its_folder_and_comes_back(self):
+        project = self.synthetic()
+        written = self.footwall("extract", project, "--write-job", "job", "--with-volume", "--ranks", 3, "--name", "far away")
+        self.assertTrue(written["with_volume"])
+        self.assertEqual(sorted(os.listdir(self.folder / "job")),
+                         ["JOB.faces", "JOB.json", "README.txt", "job.sbatch", "volume.h5"])
+        direct = self.footwall("extract", project, "--ranks", 1)
+
+        shutil.copytree(self.folder / "job", self.folder / "other place" / "copy")
+        shutil.rmtree(self.folder / "job")
+        shutil.move(self.folder / f"{project}.volumes", self.folder / "hidden")  # the copy needs nothing of the project
+        done = self.engine(2, "batch", "JOB.json", folder=self.folder / "other place" / "copy")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        shutil.move(self.folder / "hidden", self.folder / f"{project}.volumes")
+
+        attached = self.footwall("attach", project, "other place/copy")
+        for key in ("checksum", "faces", "voxels"):
+            self.assertEqual(attached[key], direct[key], key)
+        self.assertEqual((attached["ranks"], attached["stale"], attached["missing"]), (2, [], []))
+        self.assertEqual([run["name"] for run in self.footwall("info", project)["runs"]][-1], "far away")
+        for run, name in ((direct["run"], "a.csv"), (attached["run"], "b.csv")):
+            self.footwall("faces", project, "--run", run, "--csv", name)
+        self.assertEqual(*[pathlib.Path(self.path(name)).read_text() for name in ("a.csv", "b.csv")])
+
+        error = self.refused(1, "attach", project, "other place/copy")
+        self.assertIn(f"as run {attached['run']}", error["message"])
+
+    def test_the_volume_may_be_elsewhere_and_must_be_the_same(self):
+        project = self.synthetic()
+        self.footwall("extract", project, "--write-job", "job")
+        wanted = self.footwall("extract", project, "--ranks", 2)["checksum"]
+        os.rename(self.path(f"{project}.volumes/amplitude.h5"), self.path("moved.h5"))
+        self.assertEqual(self.refused(1, "batch", "job/JOB.json", "--ranks", 1)["code"], "not_found")
+        self.assertEqual(self.footwall("batch", "job/JOB.json", "--ranks", 2, "--volume", "moved.h5")["checksum"], wanted)
+        self.synthetic("other.footwall", seed=9)
+        error = self.refused(1, "batch", "job/JOB.json", "--volume", "other.footwall.volumes/amplitude.h5")
+        self.assertIn("checksum", error["message"])
+
+    def test_what_was_edited_since_is_stale(self):
+        project = self.synthetic()
+        self.footwall("extract", project, "--write-job", "job", "--ranks", 1)
+        self.footwall("batch", "job/JOB.json", "--ranks", 1)
+        self.move_a_node(project, "listric")
+        self.footwall("triangulate", project)
+        attached = self.footwall("attach", project, "job/JOB.json")
+        (stale,) = attached["stale"]
+        self.assertEqual(stale["fault"], "listric")
+        self.assertTrue(0 < stale["stale"] < stale["faces"], stale)
+
+    def test_results_of_other_things_are_refused(self):
+        project = self.synthetic()
+        self.footwall("extract", project, "--write-job", "job", "--ranks", 1)
+        self.assertIn("not computed", self.refused(1, "attach", project, "job")["message"])
+        self.assertEqual(self.refused(1, "attach", project, "nowhere")["code"], "not_found")
+        self.footwall("batch", "job/JOB.json", "--ranks", 1)
+        other = self.synthetic("other.footwall", seed=9)
+        self.assertIn("checksum", self.refused(1, "attach", other, "job")["message"])
+        runs = self.footwall("info", project)["runs"]
+        line = json.dumps({"op": "delete", "what": "fault", "fault": "listric"})
+        self.assertEqual(self.start("edit", project, stdin=line).returncode, 0)
+        self.assertIn("listric", self.refused(1, "attach", project, "job")["message"])
+        self.footwall("undo", project)
+        (part, *_) = sorted((self.folder / "job" / "parts").glob("*.part.h5"))
+        whole = part.read_bytes()
+        damaged = bytearray(whole)
+        damaged[len(damaged) // 2] ^= 1
+        part.write_bytes(damaged)
+        self.assertIn(self.refused(1, "attach", project, "job")["code"], ("corrupt", "format"))
+        part.write_bytes(whole)
+        self.assertEqual(self.footwall("info", project)["runs"], runs)  # nothing half attached
+        self.assertIn("something in", self.refused(1, "extract", project, "--write-job", "job")["message"])
+
+    def test_parts_that_are_there_attach_when_asked_for(self):
+        project = self.synthetic()
+        self.footwall("extract", project, "--write-job", "job", "--ranks", 1)
+        whole = self.footwall("batch", "job/JOB.json", "--ranks", 1)
+        gone = whole["parts"][1]
+        os.remove(self.path(f"job/parts/{gone['file']}"))
+        os.remove(self.path("job/parts/result.json"))
+        error = self.refused(1, "attach", project, "job")
+        self.assertIn(gone["name"], error["message"])
+        self.assertIn("--partial", error["hint"])
+        partly = self.footwall("attach", project, "job", "--partial")
+        self.assertEqual((partly["missing"], partly["faces"]), ([gone["name"]], whole["faces"] - gone["faces"]))
+        self.assertIsNone(partly["seconds"])
+        again = self.footwall("batch", "job/JOB.json", "--ranks", 2)
+        self.assertEqual([part["reused"] for part in again["parts"]], [part != gone for part in whole["parts"]])
+        self.assertEqual(self.footwall("attach", project, "job")["checksum"], whole["checksum"])
+
+    def test_a_dry_run_tells_and_changes_nothing(self):
+        project = self.synthetic(size="160x160x160")
+        before = pathlib.Path(self.path(project)).read_bytes()
+        told = self.footwall("extract", project, "--dry-run", "--ranks", 2)
+        self.assertEqual(pathlib.Path(self.path(project)).read_bytes(), before)
+        self.assertIn("listric", told["triangulated"])  # it would be
+        done = self.footwall("extract", project, "--ranks", 2)
+        self.assertEqual((told["voxels_counted"], told["voxels"], told["faces"], told["ranks"]),
+                         ("exactly", done["voxels"], done["faces"], 2))
+        self.assertGreaterEqual(told["bytes_to_read"], 4 * 160**3)
+        self.assertGreater(told["memory_per_rank"]["total"], 4 * 160**3 / 2)
+        self.assertEqual(told["command"][-3:-1], [str(BIN / "footwall-engine"), "batch"])
+        self.assertGreater(told["seconds"]["total"], 0)
+        self.refused(2, "extract", project, "--dry-run", "--write-job", "x")
+        self.refused(2, "extract", project, "--with-volume")
+
+    def test_tasks_that_do_not_know_of_each_other_are_refused(self):
+        project = self.synthetic()
+        self.footwall("extract", project, "--write-job", "job")
+        for name in ("SLURM_NTASKS", "SLURM_STEP_NUM_TASKS", "PMI_SIZE"):
+            done = subprocess.run([str(BIN / "footwall-engine"), "batch", "job/JOB.json"], capture_output=True, text=True,
+                                  cwd=self.folder, env={**os.environ, name: "4"})
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("MPI sees only this one", done.stderr)
+        self.assertFalse((self.folder / "job" / "parts").exists())
+        # One rank on purpose, in an allocation of four.
+        self.assertEqual(self.engine(1, "batch", "job/JOB.json", env={"SLURM_NTASKS": "4"}).returncode, 0)
+
+    def test_inside_an_allocation_srun_starts_as_many_ranks_as_were_granted(self):
+        project = self.synthetic()
+        self.script("bin/srun", f"""
+if [ "$1" = --mpi=list ]; then printf 'MPI plugin types are...\\n\\tnone\\n\\tpmi2\\n'; [ -n "$PMIX" ] && printf '\\tpmix\\n'; exit; fi
+echo "$@" > {self.folder}/words
+while [ "${{1#--}}" != "$1" ]; do shift; done
+exec mpirun --bind-to none --oversubscribe -n 3 "$@"
+""")
+        slurm = {"PATH": f"{self.folder / 'bin'}:{os.environ['PATH']}", "SLURM_JOB_ID": "7", "SLURM_NTASKS": "3",
+                 "SLURM_CPUS_PER_TASK": "2", **AS_ROOT}
+        done = self.footwall("extract", project, env={**slurm, "PMIX": "1"})
+        self.assertEqual((done["ranks"], done["threads"]), (3, 2))
+        words = (self.folder / "words").read_text().split()
+        self.assertEqual(words[:3], ["--mpi=pmix", "--ntasks=3", "--cpus-per-task=2"])
+        told = self.footwall("extract", project, "--dry-run", env=slurm)
+        self.assertEqual((told["command"][:2], told["ranks"], told["threads"]), (["srun", "--mpi=pmi2"], 3, 2))
+        # The script takes the same way.
+        self.footwall("extract", project, "--write-job", "job", "--ranks", 3)
+        self.assertEqual(subprocess.run(["bash", "-n", self.path("job/job.sbatch")]).returncode, 0)
+        done = subprocess.run(["bash", "job.sbatch"], cwd=self.folder / "job", capture_output=True, text=True,
+                              env={**os.environ, **slurm, "PMIX": "1", "FOOTWALL_ENGINE": str(BIN / "footwall-engine")})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.folder / "words").read_text().split()[0], "--mpi=pmix")
+        self.assertEqual(self.footwall("attach", project, "job")["ranks"], 3)
+        started = self.start("extract", project, env={**slurm, "SLURM_STEP_ID": "0", "SLURM_STEP_NUM_TASKS": "3"})
+        self.assertEqual(started.returncode, 1)
+        self.assertIn("started 3 times", started.stderr)
+
+    def running(self, *arguments):
+        """A run of the program whose ranks were found and stopped, so that it cannot end by itself: (process, all below it)."""
+        program = subprocess.Popen([str(BIN / "footwall"), *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   text=True, cwd=self.folder, env={**os.environ, "TMPDIR": self.path("tmp")})
+        ranks = []
+        while len(ranks) < 2 and program.poll() is None:
+            below = children(program.pid)
+            ranks = [process for process in below if is_rank(process)]
+        for rank in ranks:
+            os.kill(rank, signal.SIGSTOP)
+        self.assertIsNone(program.poll(), "it ended before it could be stopped")
+        return program, children(program.pid), ranks
+
+    def assert_gone(self, processes):
+        """Waits, without sleeping, until none of them runs."""
+        for process in processes:
+            try:
+                descriptor = os.pidfd_open(process)
+            except ProcessLookupError:
+                continue
+            try:
+                self.assertTrue(select.select([descriptor], [], [], 60)[0], f"process {process} outlived the program")
+            finally:
+                os.close(descriptor)
+
+    def test_nothing_outlives_a_killed_program(self):
+        project = self.synthetic(size="200x200x200")
+        (self.folder / "tmp").mkdir()
+        program, below, _ = self.running("extract", project, "--ranks", "2")
+        program.kill()
+        program.communicate()
+        self.assert_gone(below)
+        # What it left on disk is swept by the next run.
+        done = self.start("extract", project, "--ranks", 1, env={"TMPDIR": self.path("tmp")})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(os.listdir(self.folder / "tmp"), [])
+
+    def test_ctrl_c_leaves_nothing_behind(self):
+        project = self.synthetic(size="200x200x200")
+        (self.folder / "tmp").mkdir()
+        before = self.footwall("info", project)["runs"]
+        program, below, ranks = self.running("extract", project, "--ranks", "2")
+        program.send_signal(signal.SIGINT)
+        for rank in ranks:
+            os.kill(rank, signal.SIGCONT)
+        program.communicate(timeout=120)
+        self.assertEqual(program.returncode, 130)
+        self.assert_gone(below)
+        self.assertEqual(os.listdir(self.folder / "tmp"), [])
+        self.assertEqual(self.footwall("info", project)["runs"], before)
+
+    def test_a_job_that_must_make_room_says_that_it_can_go_on(self):
+        project = self.synthetic(size="200x200x200")
+        self.footwall("extract", project, "--write-job", "job", "--ranks", 2)
+        (self.folder / "tmp").mkdir()
+        program, below, ranks = self.running("batch", "job/JOB.json", "--ranks", "2", "--json")
+        os.kill(ranks[0], signal.SIGTERM)  # as Slurm does it, to the tasks
+        for rank in ranks:
+            os.kill(rank, signal.SIGCONT)
+        answer, _ = program.communicate(timeout=120)
+        self.assertEqual(program.returncode, 75)
+        self.assertIn("goes on", json.loads(answer)["error"]["hint"])
+        self.assert_gone(below)
+        done = self.footwall("batch", "job/JOB.json", "--ranks", 2)
+        self.assertEqual(done["checksum"], self.footwall("extract", project, "--ranks", 1)["checksum"])
+
+
+if __name__ == "__main__":
+    unittest.main()
