@@ -7,7 +7,7 @@
 #include "storage/base/log.h"
 #include "storage/base/partial_file.h"
 #include "storage/project/detail/clock.h"
-#include "storage/project/detail/file_system.h"
+#include "storage/project/file_system.h"
 #include "storage/project/detail/project_state.h"
 #include "storage/project/detail/schema.h"
 #include "storage/project/detail/survey_table.h"
