@@ -1,11 +1,12 @@
-// The MPI program: runs one batch job on all ranks. Exit 0 done, 1 failed, 2 wrong usage, 130 cancelled; a
-// failure is printed once.
+// The MPI program: runs one batch job on all ranks, or checks that they work together. Exit 0 done, 1 failed,
+// 2 wrong usage, 130 cancelled; a failure is printed once.
 #include <signal.h>
 #include <sys/prctl.h>
 
 #include <CLI/CLI.hpp>
 
 #include "app/footwall-engine/batch_command.h"
+#include "app/footwall-engine/check_command.h"
 #include "engine/comm/environment.h"
 
 namespace {
@@ -34,6 +35,10 @@ int run(const Communicator& world, int argc, char** argv) {
   app.add_subcommand("batch", "runs one job: reads JOB.json, writes part files and result.json")
       ->add_option("JOB", job, "the job's JOB.json")
       ->required();
+  std::string folder;
+  CLI::App* check =
+      app.add_subcommand("check", "tells whether the ranks work together; footwall doctor asks it");
+  check->add_option("FOLDER", folder, "where they write and read a file together")->required();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -41,7 +46,11 @@ int run(const Communicator& world, int argc, char** argv) {
     MPI_Barrier(world.get());
     return error.get_exit_code() == 0 ? code : 2;
   }
-  footwall::app::batch(world, job);
+  if (check->parsed()) {
+    footwall::app::check(world, folder);
+  } else {
+    footwall::app::batch(world, job);
+  }
   return 0;
 }
 

@@ -15,6 +15,7 @@ using Json = nlohmann::ordered_json;
 struct Output {
   Json json;
   std::string text;
+  int status = 0;  // exit status, 1 where the answer is a "no" (not an error)
 };
 
 class Console {

@@ -94,7 +94,7 @@ int Program::run(int argc, char** argv) {
       output = chosen_(console);
     }
     print(json_ ? dumped(output.json) : output.text);
-    return 0;
+    return output.status;
   } catch (const Error& error) {
     return fail(error, json_);
   } catch (const std::filesystem::filesystem_error& error) {

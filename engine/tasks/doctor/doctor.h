@@ -1,32 +1,23 @@
-// Is this machine, or this folder, fit for work? Each check is one row; none changes anything that stays.
+// Is this machine, or this folder, fit for work? Nothing that is made for it stays, also after a cancel.
 #pragma once
 #include <filesystem>
-#include <functional>
-#include <string>
 #include <vector>
 
+#include "engine/session/launch.h"
 #include "engine/tasks/doctor/finding.h"
 #include "storage/base/job_context.h"
 
 namespace footwall::tasks {
 
-struct Check {
-  std::string name;
-  // One finding or several (of the name of the check, or a narrower one). An exception other than kCancelled
-  // becomes a failed finding.
-  std::function<std::vector<Finding>(const JobContext&)> run;
-};
+// The machine: cores, memory, the engine on two ranks under its launcher, shared memory, temporary files, the
+// disk of `folder`, SQLite, text, OpenGL. Throws kCancelled only: what goes wrong is a finding.
+std::vector<Finding> check_machine(const std::filesystem::path& folder, const session::LaunchOptions& launch,
+                                   const JobContext& job);
 
-// The machine: cores, memory, the engine under its launcher, shared memory, temporary files, the disk of
-// `folder`, SQLite, text, OpenGL.
-std::vector<Check> machine_checks(const std::filesystem::path& folder);
-
-// The folder: file system, space, permissions, names, locks, flushing, a project made and held in it, the
-// engine's parallel files, speed. Everything is made in a private folder inside, removed also after a cancel;
-// at most 256 MiB and a tenth of the free space.
-std::vector<Check> folder_checks(const std::filesystem::path& folder);
-
-// Runs them in order. Throws kCancelled only.
-std::vector<Finding> run_checks(const std::vector<Check>& checks, const JobContext& job);
+// The folder: file system, space, permissions, names, locks, renaming, flushing, a project made and held in
+// it, the engine's parallel files, speed (at most 256 MiB and a tenth of the free space). Throws kCancelled
+// only.
+std::vector<Finding> check_folder(const std::filesystem::path& folder, const session::LaunchOptions& launch,
+                                  const JobContext& job);
 
 }  // namespace footwall::tasks
