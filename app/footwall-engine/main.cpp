@@ -1,11 +1,12 @@
-// The MPI program: runs one batch job on all ranks. Exit 0 done, 1 failed, 2 wrong usage, 75 told to make
-// room (SIGTERM; run it again and it goes on), 130 cancelled; a failure is printed once.
+// The MPI program: runs one batch job on all ranks, or checks that they work together. Exit 0 done, 1 failed, 2 wrong
+// usage, 75 told to make room (SIGTERM; run it again and it goes on), 130 cancelled; a failure is printed once.
 #include <signal.h>
 #include <sys/prctl.h>
 
 #include <CLI/CLI.hpp>
 
 #include "app/footwall-engine/batch_command.h"
+#include "app/footwall-engine/check_command.h"
 #include "engine/comm/environment.h"
 #include "engine/session/batch.h"
 #include "engine/session/lonely_rank.h"
@@ -48,6 +49,10 @@ int run(const Communicator& world, int argc, char** argv) {
   batch->add_option("JOB", job, "the job's JOB.json")->required();
   batch->add_option("--volume", options.volume, "where the volume is here (default: where the job says)");
   batch->add_option("--threads", options.threads, "of each rank (default: as the job says)");
+  std::string folder;
+  CLI::App* check =
+      app.add_subcommand("check", "tells whether the ranks work together; footwall doctor asks it");
+  check->add_option("FOLDER", folder, "where they write and read a file together")->required();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -55,7 +60,11 @@ int run(const Communicator& world, int argc, char** argv) {
     MPI_Barrier(world.get());
     return error.get_exit_code() == 0 ? code : 2;
   }
-  footwall::app::batch(world, job, options);
+  if (check->parsed()) {
+    footwall::app::check(world, folder);
+  } else {
+    footwall::app::batch(world, job, options);
+  }
   return 0;
 }
 

@@ -2,15 +2,16 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
+#include <fstream>
 
 #include "storage/base/error.h"
 #include "storage/base/log.h"
 #include "storage/base/partial_file.h"
 #include "storage/project/detail/clock.h"
-#include "storage/project/detail/file_system.h"
 #include "storage/project/detail/project_state.h"
 #include "storage/project/detail/schema.h"
 #include "storage/project/detail/survey_table.h"
+#include "storage/project/file_system.h"
 
 namespace footwall::project {
 namespace {
@@ -38,6 +39,52 @@ bool has_pending_log(const std::filesystem::path& path) {
   return false;
 }
 
+// Byte 18 of the file: 2 is written through a log.
+bool is_written_through_a_log(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  char head[19] = {};
+  return file.read(head, sizeof head) && head[18] == 2;
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+}
+
+// How a reader opens the file. Immutable means without any lock: right only where nobody can be writing.
+Access access_for_reading(FileSystem kind, const std::filesystem::path& path) {
+  const bool log = is_written_through_a_log(path);
+  const bool pending = has_pending_log(path);
+  if (kind == FileSystem::kReadOnly) {
+    if (!pending) return Access::kImmutable;
+    throw Error(
+        ErrorCode::kIo,
+        fmt::format("{} was not closed cleanly and cannot be put right on read-only media", path.string()),
+        "copy it, with its -wal or -journal file, to where you may write, and open it there");
+  }
+  const auto lock_file = detail::lock_path(path);
+  if (kind == FileSystem::kNetwork && log && std::filesystem::exists(lock_file)) {
+    const detail::Holder holder = detail::holder_of(lock_file);
+    if (holder.machine != detail::Holder::myself("").machine) {
+      throw Error(ErrorCode::kHeld,
+                  fmt::format("{} is held by {}, which writes through a log that only its own host can read",
+                              path.string(), holder.in_words()),
+                  "open it when it is closed there");
+    }
+  }
+  // A log needs a file beside the project. Who may not make it can still read what was closed.
+  const bool may_write = ::access(folder_of(path).c_str(), W_OK) == 0;
+  if (log && !pending && !may_write && !std::filesystem::exists(lock_file)) return Access::kImmutable;
+  return Access::kRead;
+}
+
+// Who writes at present, for a reader's notice; empty where nobody does, or nobody who lives.
+std::string writer_in_words(const std::filesystem::path& path) {
+  const auto lock_file = detail::lock_path(path);
+  const detail::Holder holder = detail::holder_of(lock_file);
+  if (holder.token.empty() || holder.dead()) return {};
+  return fmt::format("{} is writing to the project; this is what is there now", holder.in_words());
+}
+
 std::unique_ptr<detail::WriterLock> lock_for(FileSystem kind, const std::filesystem::path& path,
                                              const OpenOptions& options) {
   return kind == FileSystem::kNetwork ? detail::lease(path, options.edit_socket)
@@ -56,6 +103,12 @@ Project::State::~State() {
 
 void Project::State::close() {
   if (database) {
+    try {
+      if (lock && !lost) lock->check();
+    } catch (const Error& error) {
+      lost = true;  // whoever has it now decides about the journal
+      log::warn(error.what());
+    }
     // DELETE mode leaves one whole file that read-only media can hold. A reader in our way keeps the
     // write-ahead log; the next clean close tries again.
     if (lock && !lost) {
@@ -82,6 +135,14 @@ void Project::State::require_writer() {
                 "open it for writing");
   }
   require(!editing, "a project was written to from within edit()");
+  require_lock();
+}
+
+void Project::State::require_lock() {
+  if (lost) {
+    throw Error(ErrorCode::kHeld, fmt::format("{} is read-only since its lock was lost", path.string()),
+                "close it and open it again");
+  }
   try {
     lock->check();
   } catch (const Error&) {
@@ -127,7 +188,8 @@ Project Project::open(const std::filesystem::path& path, OpenMode mode, const Op
   auto state = std::make_unique<State>();
   state->path = resolved(path);
   detail::check_header(state->path, newest);
-  state->file_system = options.file_system.value_or(detail::file_system_of(state->path));
+  state->file_system =
+      options.file_system ? *options.file_system : file_system_at(folder_of(state->path)).kind;
   const bool read_only_medium = state->file_system == FileSystem::kReadOnly;
 
   // 1. The right to write.
@@ -137,15 +199,10 @@ Project Project::open(const std::filesystem::path& path, OpenMode mode, const Op
                   "open it read-only, or copy it to where you may write");
     }
     state->lock = lock_for(state->file_system, state->path, options);
-  } else if (read_only_medium && has_pending_log(state->path)) {
-    throw Error(
-        ErrorCode::kIo,
-        fmt::format("{} was not closed cleanly and cannot be put right on read-only media", path.string()),
-        "copy it, with its -wal or -journal file, to where you may write, and open it there");
   }
 
   // 2. The file, and the proof that it is what it should be.
-  const Access access = state->lock ? Access::kWrite : read_only_medium ? Access::kImmutable : Access::kRead;
+  const Access access = state->lock ? Access::kWrite : access_for_reading(state->file_system, state->path);
   state->database = std::make_unique<Database>(state->path, access);
   Database& database = *state->database;
   state->version = detail::verify(database, migrations);
@@ -169,9 +226,19 @@ Project Project::open(const std::filesystem::path& path, OpenMode mode, const Op
   if (state->file_system == FileSystem::kNetwork) {
     state->notices.emplace_back(kNetworkNotice);
   }
-  if (state->lock) {
+  if (!state->lock) {
+    if (auto writer = writer_in_words(state->path); !writer.empty())
+      state->notices.push_back(std::move(writer));
+  } else {
     const bool network = state->file_system == FileSystem::kNetwork;
-    database.text(network ? "PRAGMA journal_mode = DELETE" : "PRAGMA journal_mode = WAL");
+    const std::string journal =
+        database.text(network ? "PRAGMA journal_mode = DELETE" : "PRAGMA journal_mode = WAL");
+    if (network && journal != "delete") {
+      throw Error(ErrorCode::kHeld,
+                  fmt::format("{} is still written through a log that a network file system cannot carry",
+                              state->path.string()),
+                  "close it wherever it is open, and try again");
+    }
     if (!state->lock->taken_over().empty()) {
       state->notices.push_back(state->lock->taken_over());
       state->write([&] {
@@ -186,6 +253,13 @@ Project Project::open(const std::filesystem::path& path, OpenMode mode, const Op
 
 void Project::close() {
   state_->close();
+}
+
+void Project::copy_database(const std::filesystem::path& copy, const JobContext& job) const {
+  if (std::filesystem::exists(copy)) {
+    throw Error(ErrorCode::kInvalid, fmt::format("{} already exists", copy.string()), "choose another name");
+  }
+  detail::back_up(*state_->database, copy, job);
 }
 
 }  // namespace footwall::project

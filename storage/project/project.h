@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "storage/base/job_context.h"
 #include "storage/project/interpretation.h"
 #include "storage/project/records.h"
 #include "storage/survey/geometry.h"
@@ -70,6 +71,10 @@ class Project {
   // What the user should see: network file system, a lock taken over, an upgrade done.
   std::vector<std::string> notices() const;
   int schema_version() const;
+  // Writes a copy of the database alone, as of one moment, also while somebody else writes: a whole file that
+  // does not exist before, closed cleanly. Throws kIo; kInvalid where `copy` exists. Cancelled it leaves
+  // nothing.
+  void copy_database(const std::filesystem::path& copy, const JobContext& job) const;
 
   // The survey. set_survey refuses (kInvalid) to change index space once volumes exist.
   std::optional<survey::Geometry> survey() const;

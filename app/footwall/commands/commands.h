@@ -18,7 +18,9 @@ void add_extract(console::Program& program);
 void add_faces(console::Program& program);
 void add_export(console::Program& program);
 void add_render(console::Program& program);
+void add_pack(console::Program& program);
 void add_relink(console::Program& program);
+void add_doctor(console::Program& program);
 void add_bench(console::Program& program);
 
 }  // namespace footwall::commands

@@ -6,7 +6,10 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <span>
 
+#include "storage/base/hash.h"
+#include "storage/base/partial_file.h"
 #include "storage/project/detail/clock.h"
 #include "storage/project/detail/writer_lock.h"
 
@@ -17,6 +20,17 @@ std::string host_name() {
   char name[256] = {};
   if (::gethostname(name, sizeof name - 1) != 0) return "unknown";
   return name;
+}
+
+// The kernel as it was started and the name space that process numbers belong to; empty where it cannot be
+// told.
+std::string machine_name() {
+  std::string boot;
+  std::ifstream file("/proc/sys/kernel/random/boot_id");
+  std::error_code trouble;
+  const auto processes = std::filesystem::read_symlink("/proc/self/ns/pid", trouble);
+  if (!std::getline(file, boot) || trouble) return {};
+  return boot + " " + processes.string();
 }
 
 // Field 22 of /proc/PID/stat; 0 when there is no such process. The second field, in brackets, may hold
@@ -60,13 +74,18 @@ Holder Holder::myself(const std::string& edit_socket) {
   me.process_start = start_of(me.pid);
   me.since = now_text();
   me.edit_socket = edit_socket;
-  me.token = fmt::format("{}-{}-{}-{}", me.host, me.pid, me.process_start, ++count);
+  me.machine = machine_name();
+  const std::string kind = me.machine + me.since;
+  // With the machine in it: two hosts of one name may start processes of one number.
+  me.token = fmt::format("{}-{}-{}-{}-{}", me.host, me.pid, me.process_start, ++count,
+                         to_hex(hash64(std::as_bytes(std::span(kind)))));
   return me;
 }
 
 std::string Holder::to_json() const {
-  return nlohmann::json{{"host", host},   {"pid", pid},     {"process_start", process_start},
-                        {"since", since}, {"token", token}, {"edit_socket", edit_socket}}
+  return nlohmann::json{{"host", host},       {"pid", pid},     {"process_start", process_start},
+                        {"since", since},     {"token", token}, {"edit_socket", edit_socket},
+                        {"machine", machine}, {"lease", lease}}
              .dump() +
          "\n";
 }
@@ -81,6 +100,9 @@ Holder Holder::from_json(const std::string& text) {
   holder.since = plain(object, "since");
   holder.edit_socket = plain(object, "edit_socket");
   holder.token = plain(object, "token");
+  holder.machine = plain(object, "machine");
+  const auto lease = object.find("lease");
+  holder.lease = lease != object.end() && lease->is_boolean() && lease->get<bool>();
   return holder;
 }
 
@@ -90,13 +112,21 @@ std::string Holder::in_words() const {
 }
 
 bool Holder::dead() const {
-  return pid > 0 && host == host_name() && start_of(pid) != process_start;
+  return pid > 0 && !machine.empty() && machine == machine_name() && start_of(pid) != process_start;
 }
 
 std::filesystem::path lock_path(const std::filesystem::path& project) {
   std::filesystem::path path = project;
   path += ".lock";
   return path;
+}
+
+Holder holder_of(const std::filesystem::path& lock_file) {
+  try {
+    return Holder::from_json(read_whole_file(lock_file, 4096));
+  } catch (const Error&) {
+    return {};  // gone in the meantime, or not a lock file: nobody we could name
+  }
 }
 
 Error held(const std::filesystem::path& project, const Holder& holder) {

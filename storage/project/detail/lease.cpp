@@ -3,14 +3,11 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
-#include <atomic>
 #include <cerrno>
-#include <condition_variable>
-#include <mutex>
-#include <thread>
+#include <optional>
 
 #include "storage/base/log.h"
-#include "storage/base/partial_file.h"
+#include "storage/project/detail/heartbeat.h"
 #include "storage/project/detail/writer_lock.h"
 
 namespace footwall::project::detail {
@@ -20,9 +17,11 @@ class Lease : public WriterLock {
  public:
   Lease(const std::filesystem::path& project, const std::string& edit_socket)
       : project_(project), path_(lock_path(project)), me_(Holder::myself(edit_socket)) {
+    me_.lease = true;
     candidate_ = path_;
     candidate_ += "." + me_.token;
-    write_candidate();
+    file_ = written(candidate_);
+    if (file_ < 0) throw io_error("write", candidate_.string(), errno);
     try {
       take();
     } catch (...) {
@@ -31,104 +30,105 @@ class Lease : public WriterLock {
       throw;
     }
     ::unlink(candidate_.c_str());
-    heartbeat_ = std::thread([this] { renew(); });
+    heartbeat_.emplace(file_, fmt::format("the lease on {}", project_.string()));
   }
 
   ~Lease() override {
-    {
-      const std::lock_guard guard(mutex_);
-      ended_ = true;
-    }
-    wake_.notify_all();
-    heartbeat_.join();
-    if (mine()) ::unlink(path_.c_str());
+    heartbeat_.reset();
+    if (mine()) remove_if_of(me_.token);
     ::close(file_);
   }
 
   void check() override {
     if (mine()) return;
+    const Holder now = holder_of(path_);
     throw Error(ErrorCode::kHeld,
                 fmt::format("the lease on {} was lost: {}", project_.string(),
-                            holder_now().token.empty() ? std::string("its lock file is gone")
-                                                       : "taken over by " + holder_now().in_words()),
+                            now.token.empty() ? std::string("its lock file is gone or was changed")
+                                              : "taken over by " + now.in_words()),
                 "the project is read-only now; close it and open it again");
   }
 
  private:
-  void write_candidate() {
-    file_ = ::open(candidate_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file_ < 0) throw io_error("write", candidate_.string(), errno);
+  // A new file with our name in it, flushed; -1 with errno where there is one already, or for any other
+  // reason.
+  int written(const std::filesystem::path& path) const {
+    const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (file < 0) return -1;
     const std::string text = me_.to_json();
-    if (::pwrite(file_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size()) ||
-        ::fsync(file_) != 0) {
-      const int reason = errno;
-      ::close(file_);
-      ::unlink(candidate_.c_str());
-      throw io_error("write", candidate_.string(), reason);
-    }
+    const ssize_t size = ::pwrite(file, text.data(), text.size(), 0);
+    if (size == static_cast<ssize_t>(text.size()) && ::fsync(file) == 0) return file;
+    const int reason = size >= 0 && size < static_cast<ssize_t>(text.size()) ? ENOSPC : errno;
+    ::close(file);
+    ::unlink(path.c_str());
+    errno = reason;
+    return -1;
   }
 
-  // Steps: 1. link our file to the name, which succeeds for one only; 2. otherwise look at the holder: alive
+  // Puts our file at the lock's name; false where another's is there.
+  bool put_up() {
+    if (::link(candidate_.c_str(), path_.c_str()) == 0) return true;
+    if (errno == EPERM || errno == EOPNOTSUPP || errno == ENOSYS || errno == EMLINK) {
+      // No hard links here (SMB, FAT): a file that only one can create does as well; for a moment it is
+      // empty.
+      const int file = written(path_);
+      if (file >= 0) {
+        ::close(file_);
+        file_ = file;
+        return true;
+      }
+    }
+    if (errno != EEXIST) throw io_error("lease", path_.string(), errno);
+    return false;
+  }
+
+  // Steps: 1. put our file at the name, which succeeds for one only; 2. otherwise look at the holder: alive
   // means refusal; 3. a stale lease is moved aside, and put back if another had replaced it in the meantime.
   void take() {
     for (int attempt = 0; attempt < 10; ++attempt) {
-      if (::link(candidate_.c_str(), path_.c_str()) == 0) return;
-      if (errno != EEXIST) throw io_error("lease", path_.string(), errno);
-      const Holder holder = holder_now();
+      if (put_up()) return;
+      const Holder holder = holder_of(path_);
       if (holder.token.empty() && !std::filesystem::exists(path_)) continue;
       if (!holder.dead() && !stale()) throw held(project_, holder);
-      std::filesystem::path aside = candidate_;
-      aside += ".stale";
-      if (::rename(path_.c_str(), aside.c_str()) != 0) continue;
-      if (read_holder(aside).token != holder.token) {
-        const int back = ::link(aside.c_str(), path_.c_str());
-        ::unlink(aside.c_str());
-        if (back != 0) log::warn(fmt::format("a fresh lease on {} was disturbed", project_.string()));
-        continue;
-      }
-      ::unlink(aside.c_str());
-      taken_over_ = fmt::format("took over the lease of {}", holder.in_words());
+      if (remove_if_of(holder.token))
+        taken_over_ = fmt::format("took over the lease of {}", holder.in_words());
     }
-    throw held(project_, holder_now());
+    throw held(project_, holder_of(path_));
   }
 
-  // The server's clock stands in our own file, written just now; this host's clock may differ.
+  // Moved aside first, because between a look and a removal another may have put his own file there.
+  bool remove_if_of(const std::string& token) const {
+    std::filesystem::path aside = candidate_;
+    aside += ".stale";
+    if (::rename(path_.c_str(), aside.c_str()) != 0) return false;
+    const bool as_expected = holder_of(aside).token == token;
+    if (!as_expected && ::link(aside.c_str(), path_.c_str()) != 0) {
+      log::warn(fmt::format("a fresh lease on {} was disturbed: its holder will find itself read-only",
+                            project_.string()));
+    }
+    ::unlink(aside.c_str());
+    return as_expected;
+  }
+
+  // The server's clock stands in our own file, written just now; this host's clock may differ. A time far
+  // ahead of it was set before the server's clock was put back: nobody renews that one either.
   bool stale() const {
     struct stat there {};
     struct stat now {};
     if (::stat(path_.c_str(), &there) != 0) return false;
     if (::futimens(file_, nullptr) != 0 || ::fstat(file_, &now) != 0) return false;
-    return now.st_mtim.tv_sec - there.st_mtim.tv_sec > kLeaseStaleSeconds;
+    return std::abs(now.st_mtim.tv_sec - there.st_mtim.tv_sec) > kLeaseStaleSeconds;
   }
 
-  static Holder read_holder(const std::filesystem::path& path) {
-    try {
-      return Holder::from_json(read_whole_file(path, 4096));
-    } catch (const Error&) {
-      return {};  // gone in the meantime, or not a lease: nobody we could name
-    }
-  }
-  Holder holder_now() const { return read_holder(path_); }
-  bool mine() const { return holder_now().token == me_.token; }
-
-  // Touches our own file: if another has taken the name, his lease is not renewed by us.
-  void renew() {
-    std::unique_lock lock(mutex_);
-    while (!wake_.wait_for(lock, std::chrono::seconds(kLeaseRenewSeconds), [this] { return ended_; })) {
-      if (::futimens(file_, nullptr) != 0)
-        log::warn(fmt::format("cannot renew the lease on {}", project_.string()));
-    }
-  }
+  bool mine() const { return holder_of(path_).token == me_.token; }
 
   std::filesystem::path project_;
   std::filesystem::path path_;
   std::filesystem::path candidate_;
   Holder me_;
   int file_ = -1;
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  bool ended_ = false;
-  std::thread heartbeat_;
+  // Touches our own file: if another has taken the name, his lease is not renewed by us.
+  std::optional<Heartbeat> heartbeat_;
 };
 
 }  // namespace

@@ -5,7 +5,10 @@
 
 #include <fmt/format.h>
 #include <cerrno>
+#include <ctime>
+#include <optional>
 
+#include "storage/project/detail/heartbeat.h"
 #include "storage/project/detail/writer_lock.h"
 
 namespace footwall::project::detail {
@@ -36,6 +39,7 @@ class LocalLock : public WriterLock {
         throw held(project, holder);
       }
     } while (!still_there());
+    refuse_a_lease(project);
     const std::string text = Holder::myself(edit_socket).to_json();
     if (::ftruncate(file_, 0) != 0 ||
         ::pwrite(file_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
@@ -43,21 +47,38 @@ class LocalLock : public WriterLock {
       ::close(file_);
       throw io_error("write", path_.string(), reason);
     }
+    heartbeat_.emplace(file_, fmt::format("the lock {}", path_.string()));
   }
 
   ~LocalLock() override {
+    heartbeat_.reset();
     if (still_there()) ::unlink(path_.c_str());
     ::close(file_);
   }
 
   void check() override {
     if (!still_there()) {
-      throw Error(ErrorCode::kHeld, fmt::format("the lock {} was removed", path_.string()),
-                  "close the project and open it again");
+      throw Error(ErrorCode::kHeld, fmt::format("the lock {} was removed or taken over", path_.string()),
+                  "the project is read-only now; close it and open it again");
     }
   }
 
  private:
+  // Another host may reach this folder through the network and hold the project by a lease, which no OS lock
+  // here tells of.
+  void refuse_a_lease(const std::filesystem::path& project) {
+    const Holder holder = Holder::from_json(content_of(file_));
+    if (!holder.lease) return;
+    struct stat there {};
+    const bool renewed = ::fstat(file_, &there) == 0 &&
+                         std::abs(std::time(nullptr) - there.st_mtim.tv_sec) <= kLeaseStaleSeconds;
+    if (renewed && !holder.dead()) {
+      ::close(file_);
+      throw held(project, holder);
+    }
+    taken_over_ = fmt::format("took over the lease of {}", holder.in_words());
+  }
+
   bool still_there() const {
     struct stat mine {};
     struct stat there {};
@@ -67,6 +88,7 @@ class LocalLock : public WriterLock {
 
   std::filesystem::path path_;
   int file_ = -1;
+  std::optional<Heartbeat> heartbeat_;
 };
 
 }  // namespace

@@ -25,7 +25,11 @@ struct Project::State {
   void close();
   // Throws kInvalid on a read-only project, kHeld once the lock is lost.
   void require_writer();
-  // The same, then `change` in one transaction.
+  // Throws kHeld, and the project is read-only from then on, if the lock is lost.
+  void require_lock();
+  // require_writer(), then `change` in one transaction. The lock is looked at again inside: a process that
+  // was stopped for a minute may have lost it on the way, and nobody else can write before the transaction
+  // ends.
   template <class Change>
   auto write(const Change& change);
 };
@@ -34,11 +38,14 @@ template <class Change>
 auto Project::State::write(const Change& change) {
   require_writer();
   detail::Transaction transaction(*database);
+  require_lock();
   if constexpr (std::is_void_v<decltype(change())>) {
     change();
+    require_lock();
     transaction.commit();
   } else {
     auto result = change();
+    require_lock();
     transaction.commit();
     return result;
   }

@@ -151,23 +151,25 @@ Error newer(const std::string& path, std::int64_t version, int newest) {
       "open it with that version, or a later one"};
 }
 
-void back_up(Database& database, const std::filesystem::path& to) {
-  PartialFile file(to);
-  sqlite3* copy = nullptr;
-  int rc = sqlite3_open_v2(file.path().c_str(), &copy, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
-  if (rc == SQLITE_OK) {
-    sqlite3_backup* backup = sqlite3_backup_init(copy, "main", database.handle(), "main");
-    if (backup == nullptr) {
-      rc = sqlite3_errcode(copy);
-    } else {
-      sqlite3_backup_step(backup, -1);
-      rc = sqlite3_backup_finish(backup);
-    }
+// A read transaction: all reads within see the same state.
+class Snapshot {
+ public:
+  explicit Snapshot(Database& database) : database_(database) {
+    if (database_.in_transaction()) return;
+    database_.exec("BEGIN");
+    begun_ = true;
+    database_.integer("SELECT count(*) FROM sqlite_schema");  // BEGIN alone reads nothing yet
   }
-  sqlite3_close(copy);
-  if (rc != SQLITE_OK) throw database.failure(rc, "back up");
-  file.commit();
-}
+  ~Snapshot() {
+    if (begun_) sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+  }
+  Snapshot(const Snapshot&) = delete;
+  Snapshot& operator=(const Snapshot&) = delete;
+
+ private:
+  Database& database_;
+  bool begun_ = false;
+};
 
 }  // namespace
 
@@ -220,6 +222,42 @@ std::vector<Migration> all_migrations(std::span<const Migration> further) {
   return all;
 }
 
+void back_up(Database& database, const std::filesystem::path& to, const JobContext& job) {
+  constexpr int kPagesAtOnce = 256;
+  PartialFile file(to);
+  std::unique_ptr<sqlite3, int (*)(sqlite3*)> copy(
+      [&] {
+        sqlite3* opened = nullptr;
+        sqlite3_open_v2(file.path().c_str(), &opened, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
+        return opened;
+      }(),
+      sqlite3_close);
+  const auto checked = [&](int rc) {
+    if (rc != SQLITE_OK) throw database.failure(rc, "copy");
+  };
+  checked(sqlite3_errcode(copy.get()));
+  {
+    // One read transaction around all steps: what is committed meanwhile stays out, and does not start the
+    // copy anew.
+    const Snapshot snapshot(database);
+    sqlite3_backup* backup = sqlite3_backup_init(copy.get(), "main", database.handle(), "main");
+    if (backup == nullptr) checked(sqlite3_errcode(copy.get()));
+    const std::unique_ptr<sqlite3_backup, int (*)(sqlite3_backup*)> ended(backup, sqlite3_backup_finish);
+    job.report(0, "copy the project");
+    for (;;) {
+      const int rc = sqlite3_backup_step(backup, kPagesAtOnce);
+      if (rc == SQLITE_DONE) break;
+      checked(rc);
+      const int pages = std::max(sqlite3_backup_pagecount(backup), 1);
+      job.report(1 - static_cast<double>(sqlite3_backup_remaining(backup)) / pages, "copy the project");
+    }
+  }
+  // The copy still says that it is written through a log, as the original is.
+  checked(sqlite3_exec(copy.get(), "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr));
+  copy.reset();
+  file.commit();
+}
+
 void create_schema(Database& database) {
   database.exec(kSchema);
   for (const Migration& migration : kOwnMigrations) database.exec(migration.sql);
@@ -253,7 +291,7 @@ std::filesystem::path migrate(Database& database, int from, std::span<const Migr
   for (int n = 2; std::filesystem::exists(backup); ++n) {
     backup = fmt::format("{}.backup-v{}-{}", database.path().string(), from, n);
   }
-  back_up(database, backup);
+  back_up(database, backup, JobContext());
   Transaction transaction(database);
   int version = from;
   for (const Migration& migration : migrations) {

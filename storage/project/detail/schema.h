@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "storage/base/job_context.h"
 #include "storage/project/detail/database.h"
 #include "storage/project/project.h"
 
@@ -30,6 +31,10 @@ void create_schema(Database& database);
 // what version user_version has; kUnsupported for a newer version. Returns the version. migrations: all of
 // them.
 int verify(Database& database, std::span<const Migration> migrations);
+
+// A copy of the database as of one moment, as a file that is closed cleanly; `to` is replaced. Cancel is
+// looked at every few megabytes.
+void back_up(Database& database, const std::filesystem::path& to, const JobContext& job);
 
 // Copies the file to a backup beside it, then runs the migrations after `from` in one transaction. Returns
 // the backup's path.

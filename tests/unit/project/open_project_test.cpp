@@ -2,8 +2,12 @@
 #include <sys/wait.h>
 
 #include <fmt/format.h>
+#include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <fstream>
+#include <stdexcept>
+#include <utility>
 
 #include "storage/base/partial_file.h"
 #include "unit/project/project_folder.h"
@@ -11,7 +15,21 @@
 namespace footwall::project {
 namespace {
 
-using OpenProject = ProjectFolder;
+class OpenProject : public ProjectFolder {
+ protected:
+  int recorded_events() const {
+    sqlite3* db = nullptr;
+    EXPECT_EQ(sqlite3_open_v2(path_.c_str(), &db, SQLITE_OPEN_READONLY, nullptr), SQLITE_OK);
+    int count = 0;
+    const auto add = [](void* to, int, char** values, char**) {
+      *static_cast<int*>(to) = std::atoi(values[0]);
+      return 0;
+    };
+    EXPECT_EQ(sqlite3_exec(db, "SELECT count(*) FROM event", add, &count, nullptr), SQLITE_OK);
+    sqlite3_close(db);
+    return count;
+  }
+};
 
 OpenOptions with(FileSystem kind) {
   OpenOptions options;
@@ -125,6 +143,191 @@ TEST_F(OpenProject, ANetworkFileSystemIsSaidAndNeedsNoSharedMemory) {
   EXPECT_NE(error.message().find("'other'"), std::string::npos);
   EXPECT_TRUE(project.read_only());
   EXPECT_EQ(project.faults().size(), 1U);
+}
+
+// A process of our own kind that runs `body` and then ends with what it returns; go() lets it pass wait().
+class OtherProcess {
+ public:
+  template <class Body>
+  explicit OtherProcess(const Body& body) {
+    if (::pipe(told_) != 0 || ::pipe(asked_) != 0) throw std::runtime_error("no pipe");
+    process_ = ::fork();
+    if (process_ == 0) ::_exit(body(*this));
+  }
+  ~OtherProcess() {
+    if (process_ > 0) kill();
+    for (const int end : {told_[0], told_[1], asked_[0], asked_[1]}) ::close(end);
+  }
+  OtherProcess(const OtherProcess&) = delete;
+  OtherProcess& operator=(const OtherProcess&) = delete;
+
+  // In the other process: says that it is here, and waits for go().
+  void wait_here() const {
+    char byte = 'x';
+    if (::write(told_[1], &byte, 1) != 1 || ::read(asked_[0], &byte, 1) != 1) ::_exit(99);
+  }
+  // In this one.
+  void until_it_waits() const {
+    char byte = 0;
+    ASSERT_EQ(::read(told_[0], &byte, 1), 1);
+  }
+  void go() const { ASSERT_EQ(::write(asked_[1], "x", 1), 1); }
+  void kill() {
+    ::kill(process_, SIGKILL);
+    ended();
+  }
+  int ended() {
+    int status = 0;
+    ::waitpid(process_, &status, 0);
+    process_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+ private:
+  int told_[2];
+  int asked_[2];
+  pid_t process_ = -1;
+};
+
+TEST_F(OpenProject, AWriterThatSleptThroughItsLeaseWritesNoMore) {
+  Project::create(path_, {}).close();
+  OtherProcess sleeper([&](const OtherProcess& self) {
+    auto project = Project::open(path_, OpenMode::kWrite, with(FileSystem::kNetwork));
+    project.edit("before", [](Interpretation& it) { it.add_fault("before"); });
+    self.wait_here();
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      try {
+        project.edit("late", [](Interpretation& it) { it.add_fault("late"); });
+        return 1;
+      } catch (const Error& error) {
+        if (error.code() != ErrorCode::kHeld) return 2;
+      }
+    }
+    if (!project.read_only()) return 3;
+    project.close();
+    return 0;
+  });
+  sleeper.until_it_waits();
+  EXPECT_EQ(error_of([&] { Project::open(path_, OpenMode::kWrite, with(FileSystem::kNetwork)); }).code(),
+            ErrorCode::kHeld);
+  std::filesystem::last_write_time(path_.string() + ".lock",
+                                   std::filesystem::file_time_type::clock::now() - std::chrono::seconds(61));
+  auto project = Project::open(path_, OpenMode::kWrite, with(FileSystem::kNetwork));
+  ASSERT_EQ(project.notices().size(), 2U);
+  EXPECT_NE(project.notices()[1].find("took over"), std::string::npos);
+  sleeper.go();
+  EXPECT_EQ(sleeper.ended(), 0);
+  project.edit("after", [](Interpretation& it) { it.add_fault("after"); });
+  ASSERT_EQ(project.faults().size(), 2U);
+  EXPECT_EQ(project.faults()[1].name, "after");
+  project.close();
+  EXPECT_EQ(recorded_events(), 1) << "the take-over stands in the project";
+  EXPECT_EQ(files_in(folder_.path()), 1U);
+}
+
+TEST_F(OpenProject, ALeaseLostInTheMiddleOfAnEditKeepsTheEditOut) {
+  Project::create(path_, {}).close();
+  auto project = Project::open(path_, OpenMode::kWrite, with(FileSystem::kNetwork));
+  const Error error = error_of([&] {
+    project.edit("add", [&](Interpretation& it) {
+      it.add_fault("F");
+      write_whole_file(path_.string() + ".lock", R"({"host":"other","pid":1,"token":"t","since":"now"})");
+    });
+  });
+  EXPECT_EQ(error.code(), ErrorCode::kHeld);
+  EXPECT_TRUE(project.faults().empty());
+  EXPECT_TRUE(project.read_only());
+}
+
+TEST_F(OpenProject, AWriterKilledInTheMiddleOfAnEditLeavesTheStateBefore) {
+  for (const FileSystem kind : {FileSystem::kNetwork, FileSystem::kLocal}) {
+    const auto path = folder_ / (kind == FileSystem::kNetwork ? "n.footwall" : "l.footwall");
+    Project::create(path, {}).close();
+    OtherProcess writer([&](const OtherProcess& self) {
+      auto project = Project::open(path, OpenMode::kWrite, with(kind));
+      project.edit("kept", [](Interpretation& it) { it.add_fault("kept"); });
+      project.edit("lost", [&](Interpretation& it) {
+        for (int n = 0; n < 200; ++n) it.add_fault(fmt::format("lost {}", n));
+        self.wait_here();
+      });
+      return 1;
+    });
+    writer.until_it_waits();
+    writer.kill();
+    auto project = Project::open(path, OpenMode::kWrite, with(kind));
+    ASSERT_EQ(project.faults().size(), 1U);
+    EXPECT_TRUE(project.check().ok());
+    project.close();
+    EXPECT_FALSE(std::filesystem::exists(path.string() + "-journal"));
+    EXPECT_FALSE(std::filesystem::exists(path.string() + "-wal"));
+  }
+}
+
+TEST_F(OpenProject, AReaderIsToldWhoWrites) {
+  auto writer = Project::create(path_, {});
+  auto reader = Project::open(path_, OpenMode::kRead);
+  ASSERT_EQ(reader.notices().size(), 1U);
+  EXPECT_NE(reader.notices()[0].find(fmt::format("process {}", ::getpid())), std::string::npos);
+  writer.close();
+  EXPECT_TRUE(Project::open(path_, OpenMode::kRead).notices().empty());
+}
+
+TEST_F(OpenProject, ALogOfAnotherMachineIsNotReadThroughTheNetwork) {
+  auto writer = Project::create(path_, {});
+  EXPECT_NO_THROW(Project::open(path_, OpenMode::kRead, with(FileSystem::kNetwork))) << "same machine";
+  const auto lock = path_.string() + ".lock";
+  std::filesystem::remove(lock);  // the writer finds out later
+  write_whole_file(lock, R"({"host":"server","pid":1,"token":"t","since":"now","machine":"m"})");
+  const Error error = error_of([&] { Project::open(path_, OpenMode::kRead, with(FileSystem::kNetwork)); });
+  EXPECT_EQ(error.code(), ErrorCode::kHeld);
+  EXPECT_NE(error.message().find("'server'"), std::string::npos);
+}
+
+TEST_F(OpenProject, WhoMayNotWriteReadsWhatIsBeingWritten) {
+  if (::geteuid() != 0) GTEST_SKIP() << "skipped: only root can become another user";
+  std::filesystem::permissions(folder_.path(), std::filesystem::perms{0755});
+  auto writer = Project::create(path_, {});
+  const auto faults_seen = [&](const OtherProcess&) {
+    if (::setgid(65534) != 0 || ::setuid(65534) != 0) return 90;
+    try {
+      return static_cast<int>(Project::open(path_, OpenMode::kRead).faults().size());
+    } catch (const Error& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      return 91;
+    }
+  };
+  writer.edit("add", [](Interpretation& it) { it.add_fault("F"); });
+  EXPECT_EQ(OtherProcess(faults_seen).ended(), 1) << "still in the log";
+  auto reader = Project::open(path_, OpenMode::kRead);
+  reader.faults();
+  writer.close();
+  reader.close();
+  EXPECT_EQ(OtherProcess(faults_seen).ended(), 1);
+  tamper("PRAGMA journal_mode = WAL");
+  EXPECT_EQ(OtherProcess(faults_seen).ended(), 1) << "closed, but still marked as written through a log";
+}
+
+TEST_F(OpenProject, ACopyIsOneMomentOfAProjectThatIsBeingWritten) {
+  auto writer = Project::create(path_, small_survey());
+  writer.edit("add", [](Interpretation& it) { it.add_fault("F"); });
+  const auto reader = Project::open(path_, OpenMode::kRead);
+  const auto copy = folder_ / "copy.footwall";
+  bool written = false;
+  const JobContext job([&](const Progress&) {
+    if (!std::exchange(written, true)) writer.edit("add", [](Interpretation& it) { it.add_fault("G"); });
+  });
+  reader.copy_database(copy, job);
+  ASSERT_TRUE(written);
+  EXPECT_EQ(read_whole_file(copy, 1 << 26)[18], '\1') << "needs no log beside it";
+  EXPECT_EQ(Project::open(copy, OpenMode::kRead).faults().size(), 1U);
+  EXPECT_EQ(writer.faults().size(), 2U);
+  EXPECT_EQ(error_of([&] { reader.copy_database(copy, {}); }).code(), ErrorCode::kInvalid);
+  const auto before = files_in(folder_.path());
+  const JobContext cancelled;
+  cancelled.cancel();
+  EXPECT_EQ(error_of([&] { reader.copy_database(folder_ / "none.footwall", cancelled); }).code(),
+            ErrorCode::kCancelled);
+  EXPECT_EQ(files_in(folder_.path()), before);
 }
 
 TEST_F(OpenProject, ANewerProjectIsRefusedWithBothVersions) {
