@@ -103,7 +103,8 @@ Launcher with_srun(const Allocation& allocation, const std::string& plugin, int 
   launcher.words = {"srun", "--mpi=" + plugin, "--ntasks=" + std::to_string(ranks),
                     "--cpus-per-task=" + std::to_string(threads), "--kill-on-bad-exit=1"};
   if (allocation.in_step) launcher.words.emplace_back("--overlap");
-  if (kOpenMpi) launcher.settings = {"OMPI_MCA_btl_vader_single_copy_mechanism=none"};
+  if (kOpenMpi)
+    launcher.settings = {"OMPI_MCA_btl_vader_single_copy_mechanism=none", "OMPI_MCA_mpi_yield_when_idle=1"};
   launcher.why = "inside Slurm's allocation " + variable("SLURM_JOB_ID") + ", where srun offers " + plugin;
   return launcher;
 }
