@@ -21,7 +21,7 @@ namespace {
 // Recorded with two ranks on two cores (docs/batch-jobs.md); everything else is measured or counted.
 constexpr double kStartSeconds = 0.3;  // the launcher, MPI_Init, the job, the volume's table of hashes
 constexpr double kStartSecondsOfRank = 0.05;
-constexpr double kWriteSecondsOfFace = 2e-6;  // with reading the faces, and gathering the results
+constexpr double kWriteSecondsOfFace = 2e-6;   // with reading the faces, and gathering the results
 constexpr double kWriteSecondsOfPart = 12e-3;  // two flushes to the disk
 constexpr std::int64_t kProgramBytes = std::int64_t{32} << 20;
 constexpr std::int64_t kRecordBytes = 80;  // of a face's partial sums on their way
