@@ -41,12 +41,14 @@ JobContext::Listener progress_printer() {
   };
 }
 
-// Signal handlers can reach nothing but a variable of the file.
+// Signal handlers can reach nothing but variables of the file.
 const JobContext* running_job = nullptr;
+volatile std::sig_atomic_t stopped = 0;
 volatile std::sig_atomic_t terminated = 0;
-void cancel_running_job(int number) {
+void stop_running_job(int number) {
+  stopped = 1;
   if (number == SIGTERM) terminated = 1;
-  running_job->cancel();
+  if (running_job != nullptr) running_job->cancel();
 }
 
 }  // namespace
@@ -58,6 +60,13 @@ void print_error(const Error& error) {
                 {"hint", error.hint()}}}});
 }
 
+void heed_signals() {
+  struct sigaction action = {};
+  action.sa_handler = stop_running_job;
+  action.sa_flags = SA_RESTART;
+  for (const int number : {SIGINT, SIGTERM, SIGUSR1}) sigaction(number, &action, nullptr);
+}
+
 bool told_to_make_room() {
   return terminated != 0;
 }
@@ -67,10 +76,7 @@ void batch(const comm::Communicator& world, const std::filesystem::path& job_pat
   static JobContext job;  // lives as long as a signal may come
   if (world.rank() == 0) job = JobContext(progress_printer());
   running_job = &job;
-  struct sigaction action = {};
-  action.sa_handler = cancel_running_job;
-  action.sa_flags = SA_RESTART;
-  for (const int number : {SIGINT, SIGTERM, SIGUSR1}) sigaction(number, &action, nullptr);
+  if (stopped != 0) job.cancel();  // by a signal that came before
   session::run_batch(world, job_path, job, options);
 }
 

@@ -7,8 +7,12 @@
 
 namespace footwall::app {
 
+// From now on SIGINT, SIGTERM and SIGUSR1 do not end the program, but cancel its job, also one that has not
+// begun. Call it before MPI_Init, which takes a while.
+void heed_signals();
+
 // Runs the job with progress on rank 0's standard error, as JSON lines {"progress": {fraction, phase,
-// amounts}}; SIGINT, SIGTERM and SIGUSR1 cancel it. Collective; throws what run_batch throws.
+// amounts}}. Collective; throws what run_batch throws.
 void batch(const comm::Communicator& world, const std::filesystem::path& job,
            const session::BatchOptions& options);
 

@@ -73,6 +73,7 @@ int run(const Communicator& world, int argc, char** argv) {
 int main(int argc, char** argv) {
   // No rank outlives the launcher that started it.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  footwall::app::heed_signals();
   int code = 1;
   try {
     const footwall::comm::Environment environment(argc, argv);

@@ -160,8 +160,10 @@ std::string run_engine(const LaunchOptions& options, const std::filesystem::path
     throw Error(ErrorCode::kEngine, "the engine ended without a result", listener.last_words());
   }
   job.check();
-  // srun and mpirun end with the status of the ranks.
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kResumable) {
+  // srun and mpirun end with the status of the ranks; one that was told before it could listen was killed by
+  // it.
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  if (code == kResumable || code == 128 + SIGTERM) {
     throw Preempted(listener.error().value_or(Error(ErrorCode::kCancelled, "the ranks were told to stop")));
   }
   if (listener.error()) throw *listener.error();

@@ -7,7 +7,6 @@
 #include <cstdlib>
 
 #include "engine/session/child.h"
-#include "engine/session/launch.h"
 #include "storage/base/error.h"
 #include "storage/base/text.h"
 
@@ -67,7 +66,7 @@ bool may_leave_this_host(const Allocation& allocation) {
   return false;
 }
 
-Launcher with_mpirun(int ranks, int threads, const std::filesystem::path& folder) {
+Launcher with_mpirun(int ranks, const std::filesystem::path& folder) {
   Launcher launcher;
   const std::string number = std::to_string(ranks);
   if (!kOpenMpi) {
@@ -75,9 +74,9 @@ Launcher with_mpirun(int ranks, int threads, const std::filesystem::path& folder
     return launcher;
   }
   // Without binding, threads of a rank may use all of its cores. Slots are counted in cores, but a rank may
-  // well run on a hardware thread: hence --oversubscribe, always; ranks that share a core must give way while
-  // they wait. The single-copy path is the slower one.
-  const bool crowded = ranks * threads > usable_cores();
+  // well run on a hardware thread: hence --oversubscribe, always. The single-copy path is the slower one.
+  // Ranks that wait give way to others: on a machine that somebody else uses too, two ranks on two cores that
+  // do not took four times as long.
   launcher.words = {"mpirun",
                     "-n",
                     number,
@@ -89,7 +88,7 @@ Launcher with_mpirun(int ranks, int threads, const std::filesystem::path& folder
                     "none",
                     "--mca",
                     "mpi_yield_when_idle",
-                    crowded ? "1" : "0"};
+                    "1"};
   if (!folder.empty()) {
     for (const char* name : {"orte_tmpdir_base", "btl_vader_backing_directory"}) {
       launcher.words.insert(launcher.words.end(), {"--mca", name, folder.string()});
@@ -104,7 +103,8 @@ Launcher with_srun(const Allocation& allocation, const std::string& plugin, int 
   launcher.words = {"srun", "--mpi=" + plugin, "--ntasks=" + std::to_string(ranks),
                     "--cpus-per-task=" + std::to_string(threads), "--kill-on-bad-exit=1"};
   if (allocation.in_step) launcher.words.emplace_back("--overlap");
-  if (kOpenMpi) launcher.settings = {"OMPI_MCA_btl_vader_single_copy_mechanism=none"};
+  if (kOpenMpi)
+    launcher.settings = {"OMPI_MCA_btl_vader_single_copy_mechanism=none", "OMPI_MCA_mpi_yield_when_idle=1"};
   launcher.why = "inside Slurm's allocation " + variable("SLURM_JOB_ID") + ", where srun offers " + plugin;
   return launcher;
 }
@@ -163,7 +163,7 @@ Launcher choose_launcher(int ranks, int threads, const std::filesystem::path& fo
     if (plugin) {
       launcher = with_srun(allocation, *plugin, ranks, threads);
     } else {
-      launcher = with_mpirun(ranks, threads, may_leave_this_host(allocation) ? "" : folder);
+      launcher = with_mpirun(ranks, may_leave_this_host(allocation) ? "" : folder);
       launcher.why = allocation.slurm ? "srun offers neither pmix nor pmi2" : "no batch system's allocation";
     }
   }

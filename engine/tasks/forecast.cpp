@@ -21,9 +21,9 @@ namespace {
 // Recorded with two ranks on two cores (docs/batch-jobs.md); everything else is measured or counted.
 constexpr double kStartSeconds = 0.3;  // the launcher, MPI_Init, the job, the volume's table of hashes
 constexpr double kStartSecondsOfRank = 0.05;
-constexpr double kWriteSecondsOfFace = 1e-6;
-constexpr double kWriteSecondsOfPart = 5e-3;  // two flushes to the disk
-constexpr std::int64_t kProgramBytes = std::int64_t{48} << 20;
+constexpr double kWriteSecondsOfFace = 2e-6;   // with reading the faces, and gathering the results
+constexpr double kWriteSecondsOfPart = 12e-3;  // two flushes to the disk
+constexpr std::int64_t kProgramBytes = std::int64_t{32} << 20;
 constexpr std::int64_t kRecordBytes = 80;  // of a face's partial sums on their way
 constexpr std::int64_t kVoxelBytes = 16;   // of a voxel that is asked for and sent
 
@@ -124,9 +124,15 @@ void sum_bytes(const session::Job& job, const comm::RankGrid& grid, const volume
   memory.program = kProgramBytes;
   // The file's bytes, the faces of every fault, and those of the group that is being computed.
   memory.mesh = out.faces * 3 * static_cast<std::int64_t>(sizeof(extract::Face));
+  // A group of faults at a time (session/batch.h).
+  std::int64_t group = std::max<std::int64_t>(20000, out.faces / 20);
+  for (const session::JobFault& fault : job.faults)
+    group = std::max(group, static_cast<std::int64_t>(fault.faces.size()));
+  group = std::min(group, out.faces);
   const bool voxels_move = job.options.exchange == "minimum";
-  const std::int64_t sent = voxels_move ? out.voxels * kVoxelBytes / out.ranks : out.faces * kRecordBytes;
-  memory.exchange = 2 * sent + out.faces * static_cast<std::int64_t>(sizeof(extract::FaceStatistics)) * 2;
+  const std::int64_t sent = (voxels_move ? out.voxels * kVoxelBytes : group * kRecordBytes) / out.ranks;
+  memory.exchange =
+      2 * sent + (out.faces + group) * static_cast<std::int64_t>(sizeof(extract::FaceStatistics));
 }
 
 struct Rates {
@@ -147,14 +153,14 @@ Rates measured(const session::Job& job, const volume::VolumeReader& reader, cons
   const survey::Box piece = survey::intersection(
       {{middle[0] - half, middle[1] - half, 0}, {middle[0] + half + 1, middle[1] + half + 1, dims[2]}},
       {{0, 0, 0}, dims});
+  double start = omp_get_wtime();
   extract::Block block(piece, dims);
   const survey::Box wanted = block.wanted();
   std::vector<float> values(static_cast<std::size_t>(wanted.count()));
-  double start = omp_get_wtime();
   reader.read(wanted, values);
+  block.put(wanted, values);
   Rates rates;
   rates.bytes = static_cast<double>(bytes_of(chunks, wanted)) / (omp_get_wtime() - start);
-  block.put(wanted, values);
 
   const auto voxelizer = voxelize::make_voxelizer(job.options.voxelizer);
   const bool discontinuity =
@@ -164,6 +170,8 @@ Rates measured(const session::Job& job, const volume::VolumeReader& reader, cons
       block, discontinuity,
       discontinuity ? extract::discontinuity_scale(reader.info().statistics.max_abs) : 0);
   std::int64_t voxels = 0;
+  std::int64_t counts = 0;
+  std::vector<std::byte> record;
   start = omp_get_wtime();
   double spent = 0;
   for (int round = 0; spent < kTrialSeconds / 4 && round < 64; ++round) {
@@ -172,7 +180,12 @@ Rates measured(const session::Job& job, const volume::VolumeReader& reader, cons
       for (const extract::Face& face : each.faces) {
         if (survey::intersection(voxelize::bounding_voxels(face.triangle), piece).empty()) continue;
         voxelizer->rows(face.triangle, piece, folder);
-        voxels += folder.take().voxels();
+        const extract::Partial partial = folder.take();
+        // As it would go to another rank and end there.
+        record.clear();
+        extract::encode(0, partial, record);
+        counts += extract::finish(partial, true).count;
+        voxels += partial.voxels();
         spent = omp_get_wtime() - start;
         if (spent > kTrialSeconds) break;
       }
@@ -182,6 +195,7 @@ Rates measured(const session::Job& job, const volume::VolumeReader& reader, cons
     spent = omp_get_wtime() - start;
     if (voxels == before) break;  // no face lies here
   }
+  require(counts <= voxels, "no more values than voxels");
   if (voxels > 0) rates.voxels = static_cast<double>(voxels) / spent;
   return rates;
 }

@@ -61,7 +61,7 @@ console::Output run(const Options& options, const console::Console& console) {
 
 void add_batch(console::Program& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add(nullptr, "batch", "Run a job that extract --write-job wrote",
+  CLI::App* command = program.add(nullptr, "batch", "Run a job that was written into a folder",
                                   [options](console::Console& console) { return run(*options, console); });
   command->add_option("job", options->job, "The job's JOB.json")->required();
   command->add_option("--volume", options->volume, "Where the volume is here (default: where the job says)");

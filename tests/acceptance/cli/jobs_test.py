@@ -28,10 +28,15 @@ def children(process):
 
 
 def is_rank(process):
+    """Whether it is an engine that has got as far as to heed signals."""
     try:
-        return b"footwall-engine" in pathlib.Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0")[0]
+        if b"footwall-engine" not in pathlib.Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0")[0]:
+            return False
+        (caught,) = [line.split()[1] for line in pathlib.Path(f"/proc/{process}/status").read_text().splitlines()
+                     if line.startswith("SigCgt:")]
     except OSError:
         return False
+    return bool(int(caught, 16) >> (signal.SIGTERM - 1) & 1)
 
 
 class Jobs(FootwallTest):
@@ -47,9 +52,9 @@ class Jobs(FootwallTest):
         return path
 
     def move_a_node(self, project, fault):
-        nodes = [f for f in self.footwall("faults", project)["faults"] if f["name"] == fault][0]["pillars"][0]["nodes"]
-        node = nodes[0]
-        line = {"op": "move", "what": "node", "node": node["id"], "x": node["x"] + 60, "y": node["y"], "z": node["z"]}
+        (found,) = [each for each in self.footwall("faults", project)["faults"] if each["name"] == fault]
+        node = found["pillars"][0]["nodes"][0]
+        line = {"op": "move", "what": "node", "node": node["node"], "x": node["x"] + 60, "y": node["y"], "z": node["z"]}
         self.assertEqual(self.start("edit", project, stdin=json.dumps(line)).returncode, 0)
 
     def test_a_job_runs_in_a_copy_of_its_folder_and_comes_back(self):
@@ -242,8 +247,8 @@ exec mpirun --bind-to none --oversubscribe -n 3 "$@"
         program.send_signal(signal.SIGINT)
         for rank in ranks:
             os.kill(rank, signal.SIGCONT)
-        program.communicate(timeout=120)
-        self.assertEqual(program.returncode, 130)
+        _, words = program.communicate(timeout=120)
+        self.assertEqual(program.returncode, 130, words)
         self.assert_gone(below)
         self.assertEqual(os.listdir(self.folder / "tmp"), [])
         self.assertEqual(self.footwall("info", project)["runs"], before)
@@ -256,8 +261,8 @@ exec mpirun --bind-to none --oversubscribe -n 3 "$@"
         os.kill(ranks[0], signal.SIGTERM)  # as Slurm does it, to the tasks
         for rank in ranks:
             os.kill(rank, signal.SIGCONT)
-        answer, _ = program.communicate(timeout=120)
-        self.assertEqual(program.returncode, 75)
+        answer, words = program.communicate(timeout=120)
+        self.assertEqual(program.returncode, 75, answer + words)
         self.assertIn("goes on", json.loads(answer)["error"]["hint"])
         self.assert_gone(below)
         done = self.footwall("batch", "job/JOB.json", "--ranks", 2)
