@@ -81,21 +81,16 @@ std::optional<OtherFile> gocad_object(std::string_view head) {
     const std::string_view row = text::trimmed(rows.row());
     if (!starts(row, "GOCAD ")) continue;
     const std::vector<std::string_view> words = text::words(row);
-    if (words.size() < 2 || starts(words[1], "PLine")) return std::nullopt;
+    if (words.size() < 2 || starts(words[1], "PLine") || starts(words[1], "VSet")) return std::nullopt;
     if (words[1].starts_with("_") || words[1].find('_') != std::string_view::npos) continue;
     surface |= starts(words[1], "TSurf");
     other = true;
   }
   if (surface) return OtherFile{"a GOCAD TSurf, a surface", std::string(kSurface)};
   if (other)
-    return OtherFile{"a GOCAD file without PLine",
-                     "of GOCAD's objects, PLine holds sticks and TSurf surfaces"};
+    return OtherFile{"a GOCAD file without PLine and VSet",
+                     "of GOCAD's objects, PLine holds sticks, VSet points and TSurf surfaces"};
   return std::nullopt;
-}
-
-bool is_attribute_line(std::string_view row) {
-  return text::words(row).size() == 2 &&
-         (starts(row, "Discrete ") || starts(row, "Float ") || starts(row, "String ") || starts(row, "Int "));
 }
 
 std::optional<OtherFile> text_file(std::string_view head) {
@@ -119,7 +114,9 @@ std::optional<OtherFile> text_file(std::string_view head) {
       head.find("\n#Type: scattered data") != std::string_view::npos) {
     return OtherFile{"scattered data (EarthVision)", std::string(kPoints)};
   }
-  if (is_attribute_line(rows.front())) return OtherFile{"RMS points with attributes", std::string(kPoints)};
+  for (const std::string_view row : rows) {
+    if (starts(row, "FSASCI")) return OtherFile{"a CPS-3 grid", std::string(kGrid)};
+  }
   return std::nullopt;
 }
 

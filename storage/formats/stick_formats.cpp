@@ -7,9 +7,16 @@
 #include "storage/base/partial_file.h"
 #include "storage/formats/charisma.h"
 #include "storage/formats/columns.h"
+#include "storage/formats/cps3.h"
+#include "storage/formats/iesx.h"
+#include "storage/formats/landmark.h"
 #include "storage/formats/opendtect_sticks.h"
+#include "storage/formats/openworks.h"
 #include "storage/formats/other_files.h"
+#include "storage/formats/pline.h"
+#include "storage/formats/rms.h"
 #include "storage/formats/xyz_sticks.h"
+#include "storage/formats/zmap.h"
 
 namespace footwall::formats {
 namespace {
@@ -20,6 +27,13 @@ constexpr std::size_t kLargest = std::size_t{1} << 30;
 // In the order in which a file's content is asked: what starts with a word of its own, then tables with names
 // or headings, then bare numbers.
 constexpr StickFormat kFormats[] = {
+    {"pline", "GOCAD PLine", pline::recognises, pline::parse, pline::write},
+    {"openworks", "OpenWorks fault planes", openworks::recognises, openworks::parse, nullptr},
+    {"iesx", "GeoFrame IESX card images", iesx::recognises, iesx::parse, nullptr},
+    {"cps3", "CPS-3 lines", cps3::recognises, cps3::parse, cps3::write, true},
+    {"landmark", "Landmark SeisWorks columns, with --layout", nullptr, landmark::parse, nullptr},
+    {"zmap", "ZMAP+ lines", zmap::recognises, zmap::parse, zmap::write, true},
+    {"rms", "RMS points and polygons", rms::recognises, rms::parse, rms::write, true},
     {"charisma", "Charisma fault sticks", charisma::recognises, charisma::parse, charisma::write},
     {"opendtect-bulk", "OpendTect, several faults", opendtect_sticks::recognises_bulk,
      opendtect_sticks::parse, opendtect_sticks::write_bulk},
@@ -43,6 +57,7 @@ std::string names_of_formats(bool written) {
 const StickFormat& format_of(const std::string& text, const SticksOptions& options,
                              const std::optional<OtherFile>& other) {
   if (options.columns) return stick_format("columns");
+  if (!options.layout.empty()) return stick_format("landmark");
   if (other)
     throw Error(ErrorCode::kFormat, fmt::format("this is {}, not fault sticks", other->what), other->use);
   std::string_view head = text;

@@ -36,17 +36,23 @@ StickCollector::StickCollector(const SticksOptions& options) : options_(options)
   }
 }
 
-void StickCollector::file_states(std::optional<bool> z_positive_up, std::string_view z_unit) {
-  apply_z_rule(z_positive_up, z_unit);
+void StickCollector::file_states(std::optional<bool> z_positive_up, std::string_view z_unit,
+                                 std::string_view by) {
+  apply_z_rule(z_positive_up, z_unit, by);
 }
 
-void StickCollector::apply_z_rule(std::optional<bool> stated_up, std::string_view stated_unit) {
+void StickCollector::apply_z_rule(std::optional<bool> stated_up, std::string_view stated_unit,
+                                  std::string_view by) {
   z_ruled_ = true;
   const bool up = options_.z_positive_up.value_or(stated_up.value_or(false));
   assume(fmt::format("z is positive {}{}", up ? "up" : "down",
                      options_.z_positive_up ? ", as told"
-                     : stated_up            ? ", as the file says"
+                     : stated_up            ? fmt::format(", {}", by)
                                             : ""));
+  if (options_.z_positive_up && stated_up && *stated_up != up) {
+    notice(fmt::format("z is taken as positive {}, as told; the file says {} ({})", up ? "up" : "down",
+                       up ? "down" : "up", by));
+  }
   const bool told = !options_.z_unit.empty();
   const std::string unit = told ? options_.z_unit : std::string(stated_unit);
   const std::string& target = options_.vertical_unit;
@@ -77,6 +83,11 @@ void StickCollector::apply_z_rule(std::optional<bool> stated_up, std::string_vie
 void StickCollector::assume(std::string what) {
   std::vector<std::string>& assumed = result_.report.assumed;
   if (std::find(assumed.begin(), assumed.end(), what) == assumed.end()) assumed.push_back(std::move(what));
+}
+
+void StickCollector::notice(std::string what) {
+  std::vector<std::string>& notices = result_.notices;
+  if (std::find(notices.begin(), notices.end(), what) == notices.end()) notices.push_back(std::move(what));
 }
 
 void StickCollector::rename(std::string_view old_name, std::string_view new_name) {
@@ -187,7 +198,7 @@ survey::WorldPoint StickCollector::placed(const Knot& knot, bool& in_line_number
 }
 
 void StickCollector::add(const Knot& knot) {
-  if (!z_ruled_) apply_z_rule(std::nullopt, "");
+  if (!z_ruled_) apply_z_rule(std::nullopt, "", "");
   bool in_line_numbers = false;
   const survey::WorldPoint point = placed(knot, in_line_numbers);
   if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) {

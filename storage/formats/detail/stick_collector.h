@@ -38,9 +38,11 @@ class StickCollector {
 
   // What the file says of the z that follows: direction (unset: nothing) and unit ("ms", "s", "m", "ft";
   // empty: nothing). What the user told goes before it. May be called again, e.g. for each object of a file.
-  void file_states(std::optional<bool> z_positive_up, std::string_view z_unit);
-  // Throws RowError (at 0) for a knot that has neither X and Y nor, where the survey is known, lines; kMemory
-  // beyond 10 million points or 100,000 names.
+  // `by`: who says so, where it is not the file itself but, say, the format's default.
+  void file_states(std::optional<bool> z_positive_up, std::string_view z_unit,
+                   std::string_view by = "as the file says");
+  // Throws RowError (at 0) for a knot that has neither X and Y nor, where the survey is known, lines; Error
+  // kMemory beyond 10 million points or 100,000 names.
   void add(const Knot& knot);
   // The next knot without a number starts another stick. Called at blank lines and the like; calls before the
   // first knot, after the last, or one after another, do no harm.
@@ -73,7 +75,8 @@ class StickCollector {
   double apart(const Knot& knot) const;
   void compare(const Knot& knot);
   void split_at_planes();
-  void apply_z_rule(std::optional<bool> z_positive_up, std::string_view z_unit);
+  void apply_z_rule(std::optional<bool> z_positive_up, std::string_view z_unit, std::string_view by);
+  void notice(std::string what);
 
   SticksOptions options_;
   SticksImport result_;

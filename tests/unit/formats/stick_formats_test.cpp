@@ -159,11 +159,11 @@ TEST(StickFormats, AFileThatIsSomethingElseIsRefusedByItsName) {
     expect_refused([&] { read_sticks(path, "", {}); }, ErrorCode::kFormat, what, use);
   };
   refused("GOCAD TSurf 1\nHEADER {\nname:F\n}\nTFACE\nEND\n", "a GOCAD TSurf", "import surface");
-  refused("GOCAD VSet 1\n", "without PLine", "PLine");
+  refused("GOCAD Voxet 1\n", "without PLine and VSet", "TSurf");
   refused("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">\n", "VTK XML", "");
   refused("! made by hand\n@grid, GRID, 5\n", "ZMAP+ grid", "");
   refused("-996 3 25.0 25.0\n1 2 3 4\n", "IRAP classic grid", "");
-  refused("Float Dip\n1 2 3 4\n", "RMS points", "--columns");
+  refused("FSASCI 0 1 0 5 1.0E+30\nFSLIMI 1 2 3 4\n->\n1 2\n", "CPS-3 grid", "");
   refused("#Type: scattered data\n1 2 3\n", "scattered", "--columns");
   refused("\xFF\xFE\x31\x00", "UTF-16", "UTF-8");
   refused(std::string("\x1F\x8B\x08\x00", 4), "gzip", "decompress");
