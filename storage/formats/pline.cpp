@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -228,6 +229,16 @@ class Reader {
   std::map<std::string, std::int64_t> sticks_of_;
 };
 
+// Two faults whose names become the same would come back as one.
+std::string unused_name(std::string_view fault, const SticksWriteOptions& options,
+                        std::set<std::string>& used, std::vector<std::string>& renamed) {
+  const std::string name = detail::written_name(fault, "{}\n\r", options.names_without_blanks, renamed);
+  std::string unused = name;
+  for (int n = 2; !used.insert(unused).second; ++n) unused = fmt::format("{}_{}", name, n);
+  if (unused != name) renamed.push_back(fmt::format("{} -> {}", fault, unused));
+  return unused;
+}
+
 void write_stick(std::string& out, const Stick& stick, std::int64_t& id, const SticksWriteOptions& options) {
   out += "ILINE\n";
   const std::int64_t first = id;
@@ -270,9 +281,10 @@ std::string write(std::span<const Stick> sticks, const SticksWriteOptions& optio
     if (list.empty()) faults.push_back(stick.fault);
     list.push_back(&stick);
   }
+  std::set<std::string> used;
   std::string out;
   for (const std::string_view fault : faults) {
-    const std::string name = detail::written_name(fault, "{}", options.names_without_blanks, renamed);
+    const std::string name = unused_name(fault, options, used, renamed);
     fmt::format_to(std::back_inserter(out),
                    "GOCAD PLine 1\nHEADER {{\nname:{}\n}}\nGOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME Default\n"
                    "AXIS_NAME \"X\" \"Y\" \"Z\"\nAXIS_UNIT \"{}\" \"{}\" \"{}\"\nZPOSITIVE {}\n"
