@@ -22,6 +22,8 @@ using detail::RowError;
 
 constexpr std::string_view kRowsRead = "rows read: GOCAD PLine 1, ILINE, VRTX id x y z, SEG id id, END";
 
+constexpr std::size_t kMostVertices = 10'000'000;  // in one object; segments likewise
+
 enum class Kind : std::uint8_t { kNone, kPLine, kVSet, kOther };
 
 struct Vertex {
@@ -119,6 +121,7 @@ class Reader {
       same.row = row_;
       set(id, same);
     } else if (word == "SEG") {
+      if (segments_.size() == kMostVertices) refuse_size();
       segments_.push_back({place_of(1, row), place_of(2, row)});
       if (segments_.back().a == segments_.back().b) {
         segments_.pop_back();
@@ -159,8 +162,15 @@ class Reader {
 
   // A later line may number its points anew; what follows means the newest.
   void set(std::int64_t id, const Vertex& at) {
+    if (vertices_.size() == kMostVertices) refuse_size();
     place_of_id_[id] = vertices_.size();
     vertices_.push_back(at);
+  }
+
+  [[noreturn]] void refuse_size() const {
+    throw Error(ErrorCode::kMemory,
+                fmt::format("object {} has more than {} points or segments", name_, kMostVertices),
+                "split it");
   }
 
   std::size_t place_of(std::size_t n, std::string_view row) const {
