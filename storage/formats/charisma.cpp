@@ -128,8 +128,9 @@ bool starts_with_inline_number(std::string_view line) {
 // Words before the first knot: no marker, or headings such as "INLINE CROSSLINE X Y Z".
 bool is_header(std::string_view content) {
   if (starts_with_inline_number(content)) return false;
-  const std::vector<std::string_view> words = text::words(content);
-  const auto is_number = [](std::string_view word) { return text::number(word).has_value(); };
+  std::vector<Field> words;
+  detail::split_fields(content, 0, words);
+  const auto is_number = [](const Field& word) { return text::number(word.text).has_value(); };
   return Row(content).take("INLINE") ? std::none_of(words.begin(), words.end(), is_number)
                                      : !is_number(words.front());
 }
@@ -152,7 +153,7 @@ SticksImport parse(std::string_view text, const SticksOptions& options) {
       continue;
     }
     try {
-      if (sticks.read() == 0 && is_header(content)) {
+      if (sticks.read() == 0 && rows.number() <= detail::kMostHeaderRows && is_header(content)) {
         sticks.skip();
       } else if (const auto knot = parse_row(line)) {
         sticks.add(*knot);

@@ -20,7 +20,7 @@ namespace {
 using detail::Field;
 using detail::RowError;
 
-constexpr int kMostColumns = 1000;
+constexpr auto kMostColumns = static_cast<int>(detail::kMostFields);
 
 struct Column {
   std::string_view name;

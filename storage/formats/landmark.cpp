@@ -140,34 +140,38 @@ class Reader {
 
   void add(std::string_view row) {
     detail::Knot knot;
+    knot.name = field(kName, row).text;
+    knot.stick = stick_of(row, knot.name);  // first: a start whose position is bad is a start nonetheless
     if (layout_[kX] && layout_[kY]) {
       knot.xy = {detail::number_of(field(kX, row), "X coordinate"),
                  detail::number_of(field(kY, row), "Y coordinate")};
     }
     if (layout_[kLine] && layout_[kTrace]) lines(row, knot);
     knot.z = detail::number_of(field(kZ, row), "z");
-    const Field type = field(kType, row);
-    const std::int64_t point = detail::integer_of(type, "point type");
-    if (point < kStart || point > kControl) {
-      throw RowError{type.at, fmt::format("point type {} is not known (1 to 4 are)", point)};
-    }
     state_z(row);
     if (const Field unit = field(kDistanceUnit, row); !unit.text.empty() && !distance_told_) {
       distance_told_ = true;
       collector_.assume(fmt::format("X and Y are in '{}', as the file says, and kept so", unit.text));
     }
-    knot.name = field(kName, row).text;
-    std::int64_t& stick = stick_of_[std::string(knot.name)];
-    const bool starts = point == kStart || ended_ || stick == 0 || knot.name != fault_;
+    collector_.add(knot);
+  }
+
+  std::int64_t stick_of(std::string_view row, std::string_view name) {
+    const Field type = field(kType, row);
+    const std::int64_t point = detail::integer_of(type, "point type");
+    if (point < kStart || point > kControl) {
+      throw RowError{type.at, fmt::format("point type {} is not known (1 to 4 are)", point)};
+    }
+    std::int64_t& stick = stick_of_[std::string(name)];
+    const bool starts = point == kStart || ended_ || stick == 0 || name != fault_;
     if (starts) ++stick;
     if (starts && point != kStart) {
       collector_.assume("a point that follows an end, or comes first, starts a stick whatever its type");
     }
     if (point == kControl) collector_.assume("control points (type 4) are points of their stick");
-    fault_ = knot.name;
+    fault_ = name;
     ended_ = point == kEnd;
-    knot.stick = stick;
-    collector_.add(knot);
+    return stick;
   }
 
   // Beside X and Y the lines are not needed: names of 2D lines may stand there.

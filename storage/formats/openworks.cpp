@@ -106,7 +106,7 @@ class Reader {
       for (std::size_t n = 0; n < 3; ++n) {
         values[n] = detail::number_of(detail::field_at(fields_, n, row, kNames[n]), kNames[n]);
       }
-      if (points_ == 1) number_ = ++sticks_of_[std::string(name_)];
+      if (number_ == 0) number_ = ++sticks_of_[std::string(name_)];
       collector_.add({.name = name_, .stick = number_, .xy = {{values[0], values[1]}}, .z = values[2]});
     } catch (const RowError& error) {
       collector_.reject(number, error);
@@ -120,6 +120,7 @@ class Reader {
     }
     points_stated_.reset();
     points_ = 0;
+    number_ = 0;
     segment_row_ = 0;
   }
 
@@ -129,7 +130,7 @@ class Reader {
   Next next_ = Next::kPoints;
   std::string_view name_;  // in the text that is read
   std::map<std::string, std::int64_t> sticks_of_;
-  std::int64_t number_ = 0;
+  std::int64_t number_ = 0;       // of the segment's stick; 0: it has none yet
   std::int64_t segment_row_ = 0;  // 0: outside of segments
   std::optional<std::int64_t> points_stated_;
   std::int64_t points_ = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -20,6 +21,8 @@ using detail::Field;
 using detail::RowError;
 
 constexpr std::string_view kRowsRead = "rows read: GOCAD PLine 1, ILINE, VRTX id x y z, SEG id id, END";
+
+constexpr std::size_t kMostVertices = 10'000'000;  // in one object; segments likewise
 
 enum class Kind : std::uint8_t { kNone, kPLine, kVSet, kOther };
 
@@ -118,6 +121,7 @@ class Reader {
       same.row = row_;
       set(id, same);
     } else if (word == "SEG") {
+      if (segments_.size() == kMostVertices) refuse_size();
       segments_.push_back({place_of(1, row), place_of(2, row)});
       if (segments_.back().a == segments_.back().b) {
         segments_.pop_back();
@@ -158,8 +162,15 @@ class Reader {
 
   // A later line may number its points anew; what follows means the newest.
   void set(std::int64_t id, const Vertex& at) {
+    if (vertices_.size() == kMostVertices) refuse_size();
     place_of_id_[id] = vertices_.size();
     vertices_.push_back(at);
+  }
+
+  [[noreturn]] void refuse_size() const {
+    throw Error(ErrorCode::kMemory,
+                fmt::format("object {} has more than {} points or segments", name_, kMostVertices),
+                "split it");
   }
 
   std::size_t place_of(std::size_t n, std::string_view row) const {
@@ -228,6 +239,16 @@ class Reader {
   std::map<std::string, std::int64_t> sticks_of_;
 };
 
+// Two faults whose names become the same would come back as one.
+std::string unused_name(std::string_view fault, const SticksWriteOptions& options,
+                        std::set<std::string>& used, std::vector<std::string>& renamed) {
+  const std::string name = detail::written_name(fault, "{}\n\r", options.names_without_blanks, renamed);
+  std::string unused = name;
+  for (int n = 2; !used.insert(unused).second; ++n) unused = fmt::format("{}_{}", name, n);
+  if (unused != name) renamed.push_back(fmt::format("{} -> {}", fault, unused));
+  return unused;
+}
+
 void write_stick(std::string& out, const Stick& stick, std::int64_t& id, const SticksWriteOptions& options) {
   out += "ILINE\n";
   const std::int64_t first = id;
@@ -270,9 +291,10 @@ std::string write(std::span<const Stick> sticks, const SticksWriteOptions& optio
     if (list.empty()) faults.push_back(stick.fault);
     list.push_back(&stick);
   }
+  std::set<std::string> used;
   std::string out;
   for (const std::string_view fault : faults) {
-    const std::string name = detail::written_name(fault, "{}", options.names_without_blanks, renamed);
+    const std::string name = unused_name(fault, options, used, renamed);
     fmt::format_to(std::back_inserter(out),
                    "GOCAD PLine 1\nHEADER {{\nname:{}\n}}\nGOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME Default\n"
                    "AXIS_NAME \"X\" \"Y\" \"Z\"\nAXIS_UNIT \"{}\" \"{}\" \"{}\"\nZPOSITIVE {}\n"

@@ -17,7 +17,8 @@ bool recognises(std::string_view head);
 // point, which it repeats at its end; where more than two segments meet, a chain ends. An ILINE without SEG
 // joins its points in their order; a point that no SEG names is a stick of one. VRTX, PVRTX and ATOM by id,
 // ids from anywhere; every point of a VSet is a stick of one. z by ZPOSITIVE and AXIS_UNIT; without ZPOSITIVE
-// it is elevation, which is GOCAD's default, and told as assumed. Throws kFormat where there is no polyline.
+// it is elevation, which is GOCAD's default, and told as assumed. Throws kFormat where there is no polyline,
+// kMemory beyond 10 million points.
 SticksImport parse(std::string_view text, const SticksOptions& options = {});
 // One object a fault, one ILINE a stick, ZPOSITIVE and AXIS_UNIT stated, coordinates with four decimals (z in
 // seconds with seven).

@@ -138,20 +138,22 @@ class Reader {
 bool recognises(std::string_view head) {
   detail::Rows rows(head);
   std::vector<Field> fields;
-  bool has_attributes = false, has_points = false;
+  bool has_attributes = false, has_ends = false;
+  std::size_t seen = 0, points = 0;
   while (rows.next()) {
     detail::split_fields(rows.row(), 0, fields);
     if (fields.empty() || detail::is_comment(rows.row())) continue;
-    if (!has_points && names_attribute(fields)) {
+    if (seen == 0 && names_attribute(fields)) {
       has_attributes = true;
       continue;
     }
-    if (!starts_with_numbers(fields)) return false;
-    if (has_attributes || ends_line(fields)) return true;
-    if (fields.size() > 3) return false;
-    has_points = true;
+    ++seen;
+    if (!starts_with_numbers(fields) || (fields.size() > 3 && !has_attributes)) continue;
+    ++points;
+    has_ends = has_ends || ends_line(fields);
   }
-  return false;
+  if (has_attributes) return points > 0;
+  return has_ends && points * 4 >= seen * 3;  // the other rows will be rejected
 }
 
 SticksImport parse(std::string_view text, const SticksOptions& options) {

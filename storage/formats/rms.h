@@ -11,8 +11,8 @@
 
 namespace footwall::formats::rms {
 
-// Rows that start with three numbers, and among them either a row of 999.0, or attribute rows ("Discrete",
-// "String", "Float", "Int", each with a name) before them.
+// Three of four rows at least are three numbers, one of them 999.0 alone; or attribute rows ("Discrete",
+// "String", "Float", "Int", each with a name) stand in front of rows of numbers.
 bool recognises(std::string_view head);
 // Lines are numbered from 1 in the order of the file. In a file without any row of 999.0 the rows are points,
 // each a stick of one. An attribute called fault or fault name (in any case, with or without "_") gives the

@@ -16,6 +16,10 @@ namespace {
 
 constexpr std::string_view kUnnamed = "unnamed";
 constexpr std::size_t kAnyLength = std::string_view::npos;
+// Beyond these a file is no interpretation, and memory and time would have no bound.
+constexpr std::int64_t kMostKnots = 10'000'000;
+constexpr std::size_t kMostFaults = 100'000;
+constexpr std::int64_t kMostRejects = 1'000'000;
 constexpr std::size_t kLongestReason = 300;
 
 survey::IndexPoint index_of_lines(const survey::Geometry& survey, double inline_number,
@@ -93,6 +97,12 @@ void StickCollector::rename(std::string_view old_name, std::string_view new_name
 void StickCollector::reject(std::int64_t line, const RowError& why) {
   ImportReport& report = result_.report;
   ++report.rejected_count;
+  if (report.rejected_count > kMostRejects && report.rejected_count / 10 > report.read) {
+    throw Error(ErrorCode::kFormat,
+                fmt::format("{} rows were rejected and {} read; line {}: {}", report.rejected_count,
+                            report.read, report.rejected.front().line, report.rejected.front().reason),
+                "the file seems to be of another format");
+  }
   if (report.rejected.size() < ImportReport::kListedRejects) {
     report.rejected.push_back(
         {line, static_cast<std::int64_t>(why.at) + 1, clean_name(why.reason, kLongestReason)});
@@ -118,6 +128,10 @@ StickCollector::Fault& StickCollector::fault_of(std::string_view name_in_file) {
   std::string name = clean_name(name_in_file, kAnyLength);
   if (name.empty()) name = clean_name(options_.fault, kAnyLength);
   if (name.empty()) name = kUnnamed;
+  if (names_in_file_.size() == kMostFaults) {
+    throw Error(ErrorCode::kMemory, fmt::format("the file has more than {} fault names", kMostFaults),
+                "is it the name that stands there? otherwise split the file");
+  }
   Fault& fault = faults_[name];
   if (fault.name.empty()) fault.name = short_name(name);
   if (!name_in_file.empty() && fault.name != name_in_file) rename(as_utf8(name_in_file), fault.name);
@@ -198,6 +212,9 @@ void StickCollector::add(const Knot& knot) {
   if (!stick.points.empty() && stick.points.back() == point) {
     ++result_.report.skipped;
     return;
+  }
+  if (result_.report.read == kMostKnots) {
+    throw Error(ErrorCode::kMemory, fmt::format("the file has more than {} points", kMostKnots), "split it");
   }
   stick.points.push_back(point);
   ++result_.report.read;

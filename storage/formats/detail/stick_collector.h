@@ -41,7 +41,8 @@ class StickCollector {
   // `by`: who says so, where it is not the file itself but, say, the format's default.
   void file_states(std::optional<bool> z_positive_up, std::string_view z_unit,
                    std::string_view by = "as the file says");
-  // Throws RowError (at 0) for a knot that has neither X and Y nor, where the survey is known, lines.
+  // Throws RowError (at 0) for a knot that has neither X and Y nor, where the survey is known, lines; kMemory
+  // beyond 10 million points or 100,000 names.
   void add(const Knot& knot);
   // The next knot without a number starts another stick. Called at blank lines and the like; calls before the
   // first knot, after the last, or one after another, do no harm.
@@ -49,6 +50,7 @@ class StickCollector {
   // The format parts sticks by end_stick() and by nothing else, so that no plane is looked at.
   void parted_by_blank_lines() { parted_ = true; }
   void skip() { ++result_.report.skipped; }
+  // Throws kFormat once a million rows are rejected and hardly any was read.
   void reject(std::int64_t line, const RowError& why);
   std::int64_t read() const { return result_.report.read; }
   void assume(std::string what);  // once, however often it is called

@@ -69,7 +69,7 @@ void split_fields(std::string_view row, char delimiter, std::vector<Field>& fiel
                              quote + 1 != trimmed(row, at, end).at + trimmed(row, at, end).text.size()
                          ? trimmed(row, at, end)
                          : trimmed(row, at + 1, quote));
-    if (end == row.size()) return;
+    if (end == row.size() || fields.size() == kMostFields) return;
     at = end + 1;
   }
 }

@@ -49,7 +49,9 @@ struct Field {
 };
 
 // Fields between delimiters, or between runs of blanks and tabs where delimiter is 0. What stands in "..." or
-// '...' is one field, whatever it holds. The vector is used again from row to row.
+// '...' is one field, whatever it holds. The vector is used again from row to row; it gets the first
+// kMostFields.
+constexpr std::size_t kMostFields = 1000;
 void split_fields(std::string_view row, char delimiter, std::vector<Field>& fields);
 // Columns first..last, from 1, both within, as the row has them (a shorter row gives a shorter field).
 Field columns_of(std::string_view row, std::size_t first, std::size_t last);
@@ -65,6 +67,8 @@ std::int64_t integer_of(const Field& field, std::string_view what);
 const Field& field_at(std::span<const Field> fields, std::size_t n, std::string_view row,
                       std::string_view what);
 
+// Headings are looked for no further down.
+constexpr std::int64_t kMostHeaderRows = 1000;
 constexpr double kNullFrom = 1e29;
 
 }  // namespace footwall::formats::detail

@@ -58,6 +58,16 @@ TEST(Landmark, UnitsAreConvertedAndContradictionsRejected) {
   EXPECT_THROW(parse(kFile, options), Error);  // ms into m
 }
 
+TEST(Landmark, AStartWithABadPositionStartsAStickNonetheless) {
+  const SticksImport read = parse(
+      "   620553.53  6082070.69    651.57 1 TIME  ms\n"
+      "   620553.53  6082070.x9    651.57 1 TIME  ms\n"
+      "   620653.53  6082070.69    651.57 2 TIME  ms\n",
+      with_layout());
+  EXPECT_EQ(read.report.rejected_count, 1);
+  EXPECT_EQ(read.sticks.size(), 2u);
+}
+
 TEST(Landmark, LinesAndTracesPlacePointsWhereThereIsNoXY) {
   const SticksImport read =
       parse(" 100 200 651.5 1\n 101 200 661.5 3\n",

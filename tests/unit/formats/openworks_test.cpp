@@ -47,6 +47,13 @@ TEST(OpenWorks, ASegmentOfAnotherLengthIsTold) {
   EXPECT_TRUE(says(read.report.assumed, "line 3: the segment states 3 points and has 2 rows"));
 }
 
+TEST(OpenWorks, ASegmentThatBeginsWithABadRowIsAStickOfItsOwn) {
+  const SticksImport read =
+      parse(plane("F", 1, "TIME") + segment(1) + " 1 2 3\n" + segment(2) + " 1 x 4\n 5 6 7\n");
+  ASSERT_EQ(read.sticks.size(), 2u);
+  EXPECT_EQ(read.sticks[1].points, (std::vector<survey::WorldPoint>{{5, 6, 7}}));
+}
+
 TEST(OpenWorks, TimeDoesNotGoIntoADepthSurvey) {
   SticksOptions options;
   options.vertical_unit = std::string("m");

@@ -147,6 +147,14 @@ TEST(PLine, NamesThatWouldEndTheHeaderAreChangedAndTold) {
   EXPECT_EQ(parse(text).sticks.at(0).fault, "F_1_");
 }
 
+TEST(PLine, NamesThatBecomeTheSameStayApart) {
+  std::vector<std::string> renamed;
+  const std::string text =
+      write(std::vector<Stick>{{"F_1", 1, {{1, 2, 3}}}, {"F{1", 1, {{4, 5, 6}}}}, {}, renamed);
+  EXPECT_TRUE(says(renamed, "F{1 -> F_1_2"));
+  EXPECT_EQ(parse(text).sticks.at(1).fault, "F_1_2");
+}
+
 TEST(PLine, DamagedFilesAreReadOrRefused) {
   expect_damage_is_survived(kFile, [](const std::string& text) { return parse(text); });
 }

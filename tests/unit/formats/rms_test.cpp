@@ -67,6 +67,7 @@ TEST(Rms, TextThatIsNoPointIsNotRecognised) {
   EXPECT_FALSE(recognises("Float\n1 2 3\n"));
   EXPECT_FALSE(recognises("1 2 3 4\n999 999 999 4\n"));
   EXPECT_FALSE(recognises("hello\n999 999 999\n"));
+  EXPECT_TRUE(recognises("1 2 3\n1 2\n4 5 6\n999 999 999\n"));  // a bad row is rejected when it is read
   EXPECT_THROW(parse(""), Error);
   EXPECT_THROW(parse("999 999 999\n"), Error);
 }

@@ -207,6 +207,21 @@ TEST(StickCollector, ReasonsHoldNoControlCharacters) {
   }
 }
 
+TEST(StickCollector, GivesUpOnAFileThatIsSomethingElse) {
+  StickCollector rejects({});
+  EXPECT_THROW(
+      {
+        for (std::int64_t line = 1; line < 2'000'000; ++line) rejects.reject(line, {0, "bad"});
+      },
+      Error);
+  StickCollector names({});
+  EXPECT_THROW(
+      {
+        for (int n = 0; n < 200'000; ++n) names.add({std::to_string(n), 1, {}, {{1, 2}}, 3});
+      },
+      Error);
+}
+
 TEST(StickCollector, WritersTellWhatTheyChange) {
   std::vector<std::string> renamed;
   EXPECT_EQ(written_name("Big  \"one\"", "\"", false, renamed), "Big _one_");
