@@ -41,8 +41,8 @@ class StickCollector {
   // `by`: who says so, where it is not the file itself but, say, the format's default.
   void file_states(std::optional<bool> z_positive_up, std::string_view z_unit,
                    std::string_view by = "as the file says");
-  // Throws RowError (at 0) for a knot that has neither X and Y nor, where the survey is known, lines; kMemory
-  // beyond 10 million points or 100,000 names.
+  // Throws RowError (at 0) for a knot that has neither X and Y nor, where the survey is known, lines; Error
+  // kMemory beyond 10 million points or 100,000 names.
   void add(const Knot& knot);
   // The next knot without a number starts another stick. Called at blank lines and the like; calls before the
   // first knot, after the last, or one after another, do no harm.

@@ -4,9 +4,14 @@
 
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <random>
 
+#include "damaged_text.h"
+#include "rounds.h"
 #include "scratch_folder.h"
 #include "storage/base/error.h"
+#include "storage/formats/other_files.h"
 #include "storage/formats/z_unit.h"
 
 namespace footwall::formats {
@@ -182,6 +187,42 @@ TEST(StickFormats, AFileThatIsSomethingElseIsRefusedByItsName) {
   expect_refused([&] { read_sticks(tsurf, "charisma", {}); }, ErrorCode::kFormat, "no row is a Charisma",
                  "import surface");
   expect_refused([&] { read_sticks(tsurf, "petrol", {}); }, ErrorCode::kUsage, "petrol", "charisma");
+}
+
+TEST(StickFormats, DamagedFilesAreReadOrRefused) {
+  std::mt19937_64 random(2026);
+  SticksWriteOptions how;
+  how.survey = utm_survey();
+  how.vertical_unit = "ms";
+  SticksOptions options;
+  options.survey = how.survey;
+  options.vertical_unit = "ms";
+  int read = 0, recognised = 0;
+  for (const StickFormat& format : stick_formats()) {
+    if (format.write == nullptr) continue;
+    std::vector<std::string> renamed;
+    const std::string good = format.write(ugly_sticks(format.one_fault), how, renamed);
+    for (int round = 0; round < rounds(500); ++round) {
+      const std::string text = damaged(good, random);
+      if (!recognise_other(text, text.size())) recognised += recognise_sticks(text) != nullptr;
+      try {
+        const SticksImport result = format.parse(text, options);
+        std::int64_t points = 0;
+        for (const Stick& stick : result.sticks) {
+          EXPECT_FALSE(stick.points.empty());
+          EXPECT_FALSE(stick.fault.empty());
+          EXPECT_LE(stick.fault.size(), 200U);
+          points += std::ssize(stick.points);
+        }
+        EXPECT_EQ(result.report.read, points);
+        ++read;
+      } catch (const Error& error) {
+        EXPECT_NE(error.code(), ErrorCode::kInternal) << error.what();
+      }
+    }
+  }
+  EXPECT_GT(read, 100);
+  EXPECT_GT(recognised, 100);
 }
 
 TEST(StickFormats, ReadsTextsOfEveryRowEnding) {
