@@ -182,11 +182,10 @@ ColumnMap map_from(std::string_view text) {
 
 char delimiter_from(std::string_view name) {
   constexpr std::array<std::pair<std::string_view, char>, 4> kNames{
-      {{"comma", ','}, {"semicolon", ';'}, {"tab", '\t'}, {"blank", 0}}};
+      {{"comma", ','}, {"semicolon", ';'}, {"tab", '\t'}, {"blank", ' '}}};
   for (const auto& [word, delimiter] : kNames) {
     if (name == word) return delimiter;
   }
-  if (name == " ") return 0;
   const bool plain = name.size() == 1 && std::isprint(static_cast<unsigned char>(name[0])) != 0 &&
                      std::isalnum(static_cast<unsigned char>(name[0])) == 0;
   if (!plain) {
@@ -210,7 +209,9 @@ SticksImport parse(std::string_view text, const SticksOptions& options) {
   if (!is_complete(map)) {
     throw Error(ErrorCode::kUsage, "columns of z and either X and Y, or inline and crossline, are needed");
   }
-  if (options.columns && !map.delimiter) map.delimiter = detail::delimiter_of(rows_of(text, map.header_rows));
+  if (options.columns && map.delimiter == 0)
+    map.delimiter = detail::delimiter_of(rows_of(text, map.header_rows));
+  if (map.delimiter == ' ') map.delimiter = 0;  // runs of blanks, for split_fields()
 
   Table table(map, options);
   detail::StickCollector& sticks = table.sticks();

@@ -40,7 +40,7 @@ std::string write_rows(std::span<const Stick> sticks, const SticksWriteOptions& 
 bool recognises(std::string_view head) {
   const std::vector<std::string_view> rows = detail::first_rows(head);
   std::vector<detail::Field> fields;
-  return !rows.empty() && std::all_of(rows.begin(), rows.end(), [&](std::string_view row) {
+  return detail::mostly(rows, [&](std::string_view row) {
     detail::split_fields(row, '\t', fields);
     const std::size_t numbers = detail::leading_numbers(row, '\t');
     return numbers >= 3 && numbers <= 5 && fields.size() <= numbers + 1;
@@ -49,7 +49,7 @@ bool recognises(std::string_view head) {
 
 bool recognises_bulk(std::string_view head) {
   const std::vector<std::string_view> rows = detail::first_rows(head);
-  return !rows.empty() && std::all_of(rows.begin(), rows.end(), [](std::string_view row) {
+  return detail::mostly(rows, [](std::string_view row) {
     return starts_with_name(row) && detail::leading_numbers(row, '\t', 1) >= 3;
   });
 }

@@ -11,9 +11,9 @@
 
 namespace footwall::formats::opendtect_sticks {
 
-// Rows of three to five numbers between tabs, after them perhaps the name of a line.
+// Most rows are of three to five numbers between tabs, after them perhaps the name of a line.
 bool recognises(std::string_view head);
-// Rows that start with a quoted name.
+// Most rows start with a quoted name.
 bool recognises_bulk(std::string_view head);
 // Both forms. A fourth column that starts again and again while the rows go on counts nodes, not sticks (the
 // export offers either); that is listed as assumed. Throws kFormat where no row can be used.

@@ -77,6 +77,10 @@ const StickFormat* recognise_sticks(std::string_view head) {
 SticksImport read_sticks(const std::filesystem::path& path, std::string_view format,
                          const SticksOptions& options) {
   if (!format.empty()) stick_format(format);
+  if (options.columns && !format.empty() && format != "columns") {
+    throw Error(ErrorCode::kUsage, fmt::format("columns are told, and the format '{}' has its own", format),
+                "leave the one or the other out");
+  }
   if (!std::filesystem::exists(path)) {
     throw Error(ErrorCode::kNotFound, fmt::format("there is no file {}", path.string()));
   }

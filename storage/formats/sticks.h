@@ -26,7 +26,7 @@ struct Stick {
 struct ColumnMap {
   int name = 0, stick = 0, node = 0, x = 0, y = 0, z = 0, inline_number = 0, crossline_number = 0;
   int header_rows = 0;  // rows to skip before the first
-  char delimiter = 0;   // 0 = told from the content: tab, semicolon, comma, else blanks
+  char delimiter = 0;   // 0 = told from the content: tab, semicolon, comma, else blanks; ' ' = runs of blanks
 };
 
 struct SticksOptions {

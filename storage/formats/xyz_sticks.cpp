@@ -13,11 +13,11 @@
 namespace footwall::formats::xyz_sticks {
 namespace {
 
-// Rows of at least `least` and at most `most` numbers, with a delimiter that all share.
-bool all_numbers(std::span<const std::string_view> rows, std::size_t least, std::size_t most) {
+// Most rows are `least` to `most` numbers, with a delimiter that they share.
+bool are_numbers(std::span<const std::string_view> rows, std::size_t least, std::size_t most) {
   const char delimiter = detail::delimiter_of(rows);
   std::vector<detail::Field> fields;
-  return !rows.empty() && std::all_of(rows.begin(), rows.end(), [&](std::string_view row) {
+  return detail::mostly(rows, [&](std::string_view row) {
     detail::split_fields(row, delimiter, fields);
     const std::size_t numbers = detail::leading_numbers(row, delimiter);
     return numbers == fields.size() && numbers >= least && numbers <= most;
@@ -49,7 +49,7 @@ std::string write_rows(std::span<const Stick> sticks, const SticksWriteOptions& 
 }  // namespace
 
 bool recognises_groups(std::string_view head) {
-  if (!all_numbers(detail::first_rows(head), 3, 3)) return false;
+  if (!are_numbers(detail::first_rows(head), 3, 3)) return false;
   bool knot_before = false, blank_after = false;
   for (detail::Rows rows(head); rows.next();) {
     const std::string_view row = text::trimmed(rows.row());
@@ -65,7 +65,7 @@ bool recognises_groups(std::string_view head) {
 
 bool recognises(std::string_view head) {
   const std::vector<std::string_view> rows = detail::first_rows(head);
-  return all_numbers(rows, 3, 5);
+  return are_numbers(rows, 3, 5);
 }
 
 SticksImport parse(std::string_view text, const SticksOptions& options) {

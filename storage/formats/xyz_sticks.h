@@ -12,9 +12,9 @@
 
 namespace footwall::formats::xyz_sticks {
 
-// Rows of three numbers in groups between blank lines.
+// Most rows are of three numbers, in groups between blank lines.
 bool recognises_groups(std::string_view head);
-// Rows of three to five numbers.
+// Most rows are of three to five numbers.
 bool recognises(std::string_view head);
 // The first row tells whether sticks are numbered. Throws kFormat where no row can be used.
 SticksImport parse(std::string_view text, const SticksOptions& options = {});

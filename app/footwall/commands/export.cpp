@@ -1,4 +1,4 @@
-// footwall export: volumes and faces in other programs' formats.
+// footwall export: volumes, faces and sticks in other programs' formats.
 #include <memory>
 
 #include "app/footwall/commands/commands.h"
@@ -14,20 +14,23 @@ struct Options {
   ExportVolumes volumes;
   ExportFaces faces;
   ExportPackage package;
+  ExportSticks sticks;
 };
 
 console::Output run(const Options& options, const console::Console& console) {
   options.package.check();
-  if (!options.faces.asked() && !options.volumes.asked() && !options.package.asked()) {
-    throw Error(
-        ErrorCode::kUsage, "nothing to export",
-        "name a file with --raw, --vtp, --tsurf or --csv, or a folder with --for petrel --out FOLDER");
+  if (!options.faces.asked() && !options.volumes.asked() && !options.package.asked() &&
+      !options.sticks.asked()) {
+    throw Error(ErrorCode::kUsage, "nothing to export",
+                "name a file with --raw, --vtp, --tsurf, --csv or --sticks, or a folder with --for petrel "
+                "--out FOLDER");
   }
   const project::Project project = open_project(options.project, project::OpenMode::kRead);
   console::Output output{{{"files", console::Json::array()}, {"renamed", console::Json::array()}}, ""};
   if (options.volumes.asked()) options.volumes.run(project, console, output);
   if (options.faces.asked()) options.faces.run(project, options.choice, output);
   if (options.package.asked()) options.package.run(project, options.choice, output);
+  if (options.sticks.asked()) options.sticks.run(project, options.choice, output);
   return output;
 }
 
@@ -57,12 +60,14 @@ void add_renamed(console::Output& output, const std::vector<std::string>& rename
 
 void add_export(console::Program& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add(nullptr, "export", "Write volumes and faces in other programs' formats",
-                                  [options](console::Console& console) { return run(*options, console); });
+  CLI::App* command =
+      program.add(nullptr, "export", "Write volumes, faces and sticks in other programs' formats",
+                  [options](console::Console& console) { return run(*options, console); });
   command->add_option("project", options->project, "The project, NAME.footwall")->required();
   options->volumes.add_to(*command);
   options->faces.add_to(*command);
   options->package.add_to(*command);
+  options->sticks.add_to(*command);
   options->choice.add_to(*command);
 }
 

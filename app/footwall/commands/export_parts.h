@@ -49,6 +49,15 @@ struct ExportPackage {
   void run(const project::Project& project, const ExportChoice& choice, console::Output& output) const;
 };
 
+struct ExportSticks {
+  std::string sticks, format = "charisma";
+  bool interpolated = false, no_blanks = false;
+
+  void add_to(CLI::App& command);
+  bool asked() const { return !sticks.empty(); }
+  void run(const project::Project& project, const ExportChoice& choice, console::Output& output) const;
+};
+
 // Notes a file that was written.
 void add_file(console::Output& output, const std::string& file);
 // Notes names that a format cannot hold, as "old -> new".

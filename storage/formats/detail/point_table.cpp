@@ -45,10 +45,8 @@ bool counts_nodes(std::string_view text, const PointTable& table) {
 }  // namespace
 
 char delimiter_of(std::span<const std::string_view> rows) {
-  if (rows.empty()) return 0;
   for (const char delimiter : {'\t', ';', ','}) {
-    if (std::all_of(rows.begin(), rows.end(),
-                    [&](std::string_view row) { return row.find(delimiter) != std::string_view::npos; })) {
+    if (mostly(rows, [&](std::string_view row) { return row.find(delimiter) != std::string_view::npos; })) {
       return delimiter;
     }
   }

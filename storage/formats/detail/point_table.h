@@ -14,7 +14,7 @@ struct PointTable {
   bool parted_by_blank_lines = false;  // and by nothing else: one group is one stick
 };
 
-// The delimiter of rows of numbers: tab, semicolon or comma where every row has it, else blanks.
+// The delimiter of rows of numbers: tab, semicolon or comma where most rows have it, else blanks.
 char delimiter_of(std::span<const std::string_view> rows);
 // How many numbers a row starts with, after `skipped` fields.
 std::size_t leading_numbers(std::string_view row, char delimiter, std::size_t skipped = 0);

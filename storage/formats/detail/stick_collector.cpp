@@ -8,40 +8,15 @@
 #include "storage/base/error.h"
 #include "storage/base/text.h"
 #include "storage/formats/detail/utf8.h"
+#include "storage/formats/names.h"
 #include "storage/formats/z_unit.h"
 
 namespace footwall::formats::detail {
 namespace {
 
 constexpr std::string_view kUnnamed = "unnamed";
-constexpr std::size_t kLongestName = 200;  // bytes, as a project takes it
-
-// Cut where no character is halved.
-void cut(std::string& name, std::size_t size) {
-  if (name.size() <= size) return;
-  while (size > 0 && (static_cast<unsigned char>(name[size]) & 0xC0) == 0x80) --size;
-  name.resize(size);
-  while (name.ends_with(' ')) name.pop_back();
-}
-
-std::string clean_name(std::string_view bytes) {
-  const std::string text = as_utf8(bytes);
-  std::string name;
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    const auto c = static_cast<unsigned char>(text[at]);
-    // U+0080 to U+009F are control characters too; their second byte would be left alone.
-    const bool wide_control =
-        c == 0xC2 && at + 1 < text.size() && static_cast<unsigned char>(text[at + 1]) < 0xA0;
-    if (wide_control) ++at;
-    if (c <= 0x20 || c == 0x7F || wide_control) {
-      if (!name.empty() && name.back() != ' ') name.push_back(' ');
-    } else {
-      name.push_back(text[at]);
-    }
-  }
-  while (name.ends_with(' ')) name.pop_back();
-  return name;
-}
+constexpr std::size_t kAnyLength = std::string_view::npos;
+constexpr std::size_t kLongestReason = 300;
 
 survey::IndexPoint index_of_lines(const survey::Geometry& survey, double inline_number,
                                   double crossline_number) {
@@ -108,20 +83,18 @@ void StickCollector::reject(std::int64_t line, const RowError& why) {
   ImportReport& report = result_.report;
   ++report.rejected_count;
   if (report.rejected.size() < ImportReport::kListedRejects) {
-    report.rejected.push_back({line, static_cast<std::int64_t>(why.at) + 1, as_utf8(why.reason)});
+    report.rejected.push_back(
+        {line, static_cast<std::int64_t>(why.at) + 1, clean_name(why.reason, kLongestReason)});
   }
 }
 
 // Two long names that differ only where they are cut stay two names.
 std::string StickCollector::short_name(const std::string& name) {
   if (name.size() <= kLongestName) return name;
-  std::string shorter = name;
-  cut(shorter, kLongestName);
+  std::string shorter = clean_name(name);
   for (int n = 2; !cut_names_.insert(shorter).second; ++n) {
     const std::string suffix = fmt::format(" ({})", n);
-    shorter = name;
-    cut(shorter, kLongestName - suffix.size());
-    shorter += suffix;
+    shorter = clean_name(name, kLongestName - suffix.size()) + suffix;
   }
   return shorter;
 }
@@ -131,8 +104,8 @@ StickCollector::Fault& StickCollector::fault_of(std::string_view name_in_file) {
   last_ = names_in_file_.find(name_in_file);
   if (last_ != names_in_file_.end()) return *last_->second;
 
-  std::string name = clean_name(name_in_file);
-  if (name.empty()) name = clean_name(options_.fault);
+  std::string name = clean_name(name_in_file, kAnyLength);
+  if (name.empty()) name = clean_name(options_.fault, kAnyLength);
   if (name.empty()) name = kUnnamed;
   Fault& fault = faults_[name];
   if (fault.name.empty()) fault.name = short_name(name);

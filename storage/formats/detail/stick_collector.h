@@ -33,6 +33,8 @@ class StickCollector {
  public:
   // Throws kUsage for units that cannot be converted into each other.
   explicit StickCollector(const SticksOptions& options);
+  StickCollector(const StickCollector&) = delete;
+  StickCollector& operator=(const StickCollector&) = delete;
 
   // What the file says of the z that follows: direction (unset: nothing) and unit ("ms", "s", "m", "ft";
   // empty: nothing). What the user told goes before it. May be called again, e.g. for each object of a file.

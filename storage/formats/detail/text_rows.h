@@ -1,7 +1,9 @@
 // Rows and fields of text files, for readers that say exactly where a row is wrong.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,6 +36,12 @@ class Rows {
 
 // The first `limit` rows that are neither blank nor comments, trimmed: what recognisers look at.
 std::vector<std::string_view> first_rows(std::string_view head, std::size_t limit = 50);
+
+// True where three of four rows pass: a recogniser does not stumble over the bad rows that a reader rejects.
+template <class Test>
+bool mostly(std::span<const std::string_view> rows, Test test) {
+  return !rows.empty() && std::count_if(rows.begin(), rows.end(), test) * 4 >= std::ssize(rows) * 3;
+}
 
 struct Field {
   std::string_view text;  // trimmed, without quotes

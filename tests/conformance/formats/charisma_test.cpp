@@ -1,6 +1,7 @@
 #include "storage/formats/charisma.h"
 
 #include "real_files.h"
+#include "storage/formats/stick_formats.h"
 
 namespace footwall::formats {
 namespace {
@@ -8,7 +9,8 @@ namespace {
 TEST(RealCharisma, FourSticksOfThreeNodes) {
   FOOTWALL_NEEDS_REAL_FILES();
   const SticksImport read =
-      charisma::read(real_files() / "softwareunderground+subsurface/tests/data/faults/faultsticks");
+      read_sticks(real_files() / "softwareunderground+subsurface/tests/data/faults/faultsticks", "", {});
+  EXPECT_EQ(read.format, "charisma");
   ASSERT_EQ(read.sticks.size(), 4u);
   for (std::size_t n = 0; n < 4; ++n) {
     EXPECT_EQ(read.sticks[n].fault, "gp_fault7");
