@@ -5,39 +5,18 @@
 #include <cmath>
 #include <system_error>
 
+#include "engine/tasks/export_sticks.h"
 #include "engine/tasks/face_tables.h"
-#include "engine/tasks/triangulate.h"
 #include "storage/base/error.h"
 #include "storage/base/partial_file.h"
 #include "storage/formats/gocad_tsurf.h"
 #include "storage/formats/points_table.h"
 #include "storage/formats/stick_formats.h"
-#include "storage/formats/z_unit.h"
 
 namespace footwall::tasks {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Pillars as sticks, numbered from 1 within their fault, z in `unit`.
-std::vector<formats::Stick> sticks_of(const project::Project& project, const std::string& fault,
-                                      const std::string& unit) {
-  const auto survey = project.survey();
-  const double factor = survey ? formats::z_unit_factor(name_of(survey->vertical_unit), unit) : 1;
-  std::vector<formats::Stick> sticks;
-  for (const project::FaultRecord& record : chosen_faults(project, fault)) {
-    std::int64_t number = 0;
-    for (const survey::Pillar& pillar : project.pillars(record.id)) {
-      formats::Stick stick;
-      stick.fault = record.name;
-      stick.number = ++number;
-      for (const survey::PillarNode& node : pillar.nodes)
-        stick.points.push_back({node.position.x, node.position.y, node.position.z * factor});
-      sticks.push_back(std::move(stick));
-    }
-  }
-  return sticks;
-}
 
 std::string domain_line(const std::optional<survey::Geometry>& survey) {
   if (!survey) return "not known: the project has no survey, coordinates are those of the imported files";
@@ -56,7 +35,8 @@ std::string note(const project::Project& project, const FaceTables& faces, const
       "CRS              {}\n\n"
       "Set these for the project, or in the import dialogues, before loading: the text formats do not carry "
       "them.\n",
-      project.path().filename().string(), domain_line(survey), faces.units.vertical,
+      project.path().filename().string(), domain_line(survey),
+      survey || !faces.tables.empty() ? faces.units.vertical : "not known: as imported",
       options.z_positive_up ? "up (elevation; below the datum z is negative)"
                             : "down (below the datum z is positive)",
       faces.units.horizontal, faces.crs.empty() ? "not stated" : faces.crs);
@@ -92,14 +72,21 @@ PetrelExport export_petrel(const project::Project& project, const fs::path& fold
   // 1. Everything that can be refused, before a file is written.
   const FaceTables faces =
       face_tables(project, options.fault, options.run, Coordinates::kWorld, options.z_unit);
-  const std::vector<formats::Stick> sticks = sticks_of(project, options.fault, faces.units.vertical);
-  if (sticks.empty() && faces.tables.empty()) {
+  SticksChoice choice;
+  choice.fault = options.fault;
+  choice.z_positive_up = options.z_positive_up;
+  choice.names_without_blanks = true;
+  const bool survey = project.survey().has_value();
+  if (survey) choice.z_unit = options.z_unit;
+  const ProjectSticks sticks = project_sticks(project, choice);
+  if (!survey && !sticks.sticks.empty() && !options.z_unit.empty()) {
+    throw Error(ErrorCode::kUsage, "without a survey the unit of the pillars' z is not known",
+                "leave --z-unit out, or choose an imported surface with --fault");
+  }
+  if (sticks.sticks.empty() && faces.tables.empty()) {
     throw Error(ErrorCode::kInvalid, "there are neither pillars nor faces to export",
                 "footwall import sticks, import surface and triangulate make them");
   }
-  const formats::StickFormat& charisma = formats::stick_format("charisma");
-  if (!sticks.empty() && charisma.write == nullptr)
-    throw Error(ErrorCode::kUnsupported, "this program does not write Charisma fault sticks");
   PetrelExport done;
   for (const std::string& name : faces.stale)
     done.notices.push_back(name + " was edited since this run: the run's faces are exported");
@@ -112,15 +99,8 @@ PetrelExport export_petrel(const project::Project& project, const fs::path& fold
   };
 
   // 2. What the interpreter picked.
-  if (!sticks.empty()) {
-    formats::SticksWriteOptions how;
-    how.z_positive_up = options.z_positive_up;
-    how.names_without_blanks = true;
-    how.horizontal_unit = faces.units.horizontal;
-    how.vertical_unit = faces.units.vertical;
-    how.survey = project.survey();
-    write_whole_file(path_of("fault_sticks.txt"), charisma.write(sticks, how, done.renamed));
-  }
+  if (!sticks.sticks.empty())
+    done.renamed = formats::write_sticks(path_of("fault_sticks.txt"), "charisma", sticks.sticks, sticks.how);
 
   // 3. What was computed, and the meshes.
   if (!faces.tables.empty()) {
@@ -135,7 +115,7 @@ PetrelExport export_petrel(const project::Project& project, const fs::path& fold
     done.renamed.insert(done.renamed.end(), also.begin(), also.end());
   }
   write_whole_file(path_of("README.txt"),
-                   note(project, faces, options, !sticks.empty(), !faces.tables.empty()));
+                   note(project, faces, options, !sticks.sticks.empty(), !faces.tables.empty()));
 
   // 4. A name that two formats had to change the same way is told once.
   std::sort(done.renamed.begin(), done.renamed.end());

@@ -39,8 +39,14 @@ survey::Surface surface_in_survey(const project::Project& project, const project
   survey::Surface surface = project.surface(record.id);
   const auto survey = project.survey();
   if (!survey) return surface;
-  const double across = formats::z_unit_factor(record.units.horizontal, survey->horizontal_unit);
-  const double down = formats::z_unit_factor(record.units.vertical, name_of(survey->vertical_unit));
+  double across = 1, down = 1;
+  try {
+    across = formats::z_unit_factor(record.units.horizontal, survey->horizontal_unit);
+    down = formats::z_unit_factor(record.units.vertical, name_of(survey->vertical_unit));
+  } catch (const Error& error) {
+    throw Error(ErrorCode::kInvalid, fmt::format("imported surface {}: {}", record.name, error.message()),
+                "delete its fault, and import it again with --z-unit if its unit was not what it said");
+  }
   if (across == 1 && down == 1) return surface;
   for (survey::WorldPoint& p : surface.vertices) p = {p.x * across, p.y * across, p.z * down};
   return surface;

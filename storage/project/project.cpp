@@ -68,6 +68,8 @@ void Project::set_survey(const survey::Geometry& geometry, const std::string& pr
                   "the survey's lines and samples cannot change once the project has volumes in them",
                   "make a new project");
     }
+    // Meshes made without a survey are imported surfaces in the units of their files.
+    if (!present) MeshTable(*state_->database).remove_all();
     SurveyTable(*state_->database).write(geometry, provenance);
   });
 }

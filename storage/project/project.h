@@ -76,7 +76,8 @@ class Project {
   // nothing.
   void copy_database(const std::filesystem::path& copy, const JobContext& job) const;
 
-  // The survey. set_survey refuses (kInvalid) to change index space once volumes exist.
+  // The survey. set_survey refuses (kInvalid) to change index space once volumes exist; the first one makes
+  // the meshes stale that were made without.
   std::optional<survey::Geometry> survey() const;
   std::string survey_provenance() const;  // JSON
   void set_survey(const survey::Geometry& geometry, const std::string& provenance = "{}");

@@ -154,4 +154,8 @@ void MeshTable::write(std::int64_t fault, const MeshRecord& mesh) {
       .run();
 }
 
+void MeshTable::remove_all() {
+  database_.exec("DELETE FROM mesh_vertex; DELETE FROM mesh_face; DELETE FROM mesh");
+}
+
 }  // namespace footwall::project::detail

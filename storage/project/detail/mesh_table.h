@@ -15,6 +15,7 @@ class MeshTable {
   std::int64_t revision(std::int64_t fault) const;  // 0 without mesh
   // Throws kInvalid for faces that name no vertex and positions that are not finite.
   void write(std::int64_t fault, const MeshRecord& mesh);
+  void remove_all();
 
  private:
   Database& database_;

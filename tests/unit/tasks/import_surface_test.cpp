@@ -123,6 +123,23 @@ TEST_F(ImportSurface, WithoutASurveyCoordinatesAreTheFiles) {
   EXPECT_THROW(face_tables(*project_, "G", {}, Coordinates::kWorld, "m"), Error);
 }
 
+TEST_F(ImportSurface, ASurveyThatComesLaterTakesTheSurfacesInItsUnits) {
+  create({});
+  import(tsurf("seconds", "s", "Depth"));
+  import(tsurf("feet", "ft", "Depth"));
+  project_->set_survey(time_survey());
+  EXPECT_TRUE(project_->mesh_is_stale(project_->fault("seconds").id));
+  EXPECT_TRUE(face_tables(*project_, "", {}, Coordinates::kWorld).tables.empty());
+  triangulate_fault(*project_, project_->fault("seconds"), {}, {});
+  EXPECT_EQ(face_tables(*project_, "", {}, Coordinates::kWorld).tables.at(0).vertices[0].z, 250);
+  try {
+    triangulate_fault(*project_, project_->fault("feet"), {}, {});
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kInvalid);
+  }
+}
+
 TEST_F(ImportSurface, NamesThatTheProjectCannotHoldAreChangedAndTold) {
   create({});
   const std::string longest(300, 'x');
