@@ -111,7 +111,8 @@ VolumeSource nrrd_source(const std::filesystem::path& path, const NrrdOptions& o
       {"importer", "nrrd"},
       {"file", std::filesystem::absolute(path).string()},
       {"type", name_of(header.type)},
-      {"axes", formats::raw::name_of(order)}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+      {"axes", formats::raw::name_of(
+                   order)}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   source.fill = [file, order](const survey::Box& box, std::span<float> values, std::span<std::uint8_t>) {
     file->read_block(order, box, values);
   };

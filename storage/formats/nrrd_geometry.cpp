@@ -233,7 +233,7 @@ class Placing {
       return 1.0;
     };
     geometry_.map = {0, 0, 0, bin(*axes_[0], "inlines"), bin(*axes_[1], "crosslines"), 0};
-    assume("X grows with the inlines, Y with the crosslines, both from 0");
+    assume("X grows with the crosslines, Y with the inlines, both from 0");
     const double interval = length_of(*axes_[2]) * vertical_scale_;
     interval_stated_ = std::isfinite(interval) && interval > 0;
     if (interval_stated_) geometry_.interval = interval;

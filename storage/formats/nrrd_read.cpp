@@ -167,9 +167,12 @@ void NrrdFile::State::find_samples() {
                              ? file.size() - part
                              : after_lines(file, header.files.empty() ? header.data_at : 0, header.line_skip);
     if (header.encoding == Encoding::kRaw) {
+      if (header.byte_skip > file.size()) too_short(file, part);
       if (header.byte_skip > 0) start += header.byte_skip;
       const std::int64_t left = file.size() - start;
-      if (start < 0 || left < part) too_short(file, std::min(part, part - left));
+      const std::int64_t header_end = header.files.empty() ? header.data_at : 0;
+      if (start < header_end) too_short(file, header_end - start);
+      if (left < part) too_short(file, part - left);
     }
     starts.push_back(start);
   }

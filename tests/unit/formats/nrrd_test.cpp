@@ -39,9 +39,9 @@ std::string packed(const std::string& bytes, int window = 15 + 16) {
   stream.next_out = reinterpret_cast<Bytef*>(out.data());
   stream.avail_out = static_cast<uInt>(out.size());
   deflate(&stream, Z_FINISH);
-  out.resize(out.size() - stream.avail_out);
+  const std::size_t size = stream.total_out;
   deflateEnd(&stream);
-  return out;
+  return out.substr(0, size);
 }
 
 std::string header(const std::string& type, const std::string& more = "encoding: raw\n") {
@@ -308,8 +308,8 @@ TEST(Nrrd, SaysWhatItAssumed) {
   EXPECT_EQ(bare.geometry.interval, 1);
   EXPECT_GE(bare.geometry.assumed.size(), 6u);
   const Placed spaced = placed("spacings: 3.2 -3 1500\nunits: \"mm\" \"mm\" \"mm\"\n", depth);
-  EXPECT_DOUBLE_EQ(spaced.geometry.map.per_inline_x, 0.0032);
-  EXPECT_DOUBLE_EQ(spaced.geometry.map.per_crossline_y, 0.003);
+  EXPECT_DOUBLE_EQ(spaced.geometry.map.per_inline_y, 0.0032);
+  EXPECT_DOUBLE_EQ(spaced.geometry.map.per_crossline_x, 0.003);
   EXPECT_DOUBLE_EQ(spaced.geometry.interval, 1.5);
   const Placed up = placed(
       "space: right-anterior-superior\nspace directions: (2,0,0) (0,2,0) (0,0,-5)\nspace origin: "

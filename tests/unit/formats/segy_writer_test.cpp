@@ -247,7 +247,9 @@ void expect_nearest(float value) {
     if ((other & 0xFFFFFF) < 0x100000u) continue;  // left the exponent
     const double distance = std::abs(exact(other) - wanted);
     ASSERT_LE(error, distance) << value;
-    if (error == distance) ASSERT_EQ(bits & 1, 0u) << value;
+    if (error == distance) {
+      ASSERT_EQ(bits & 1, 0u) << value;
+    }
   }
 }
 

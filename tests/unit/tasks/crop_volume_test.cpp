@@ -23,7 +23,7 @@ Error error_of(const Crop& crop) {
 TEST(CropVolume, TakesLinesSamplesAndStridesByNumber) {
   Crop crop;
   crop.inlines = LineRange{104, 112, 4};      // of 100 to 118 by 2
-  crop.crosslines = LineRange{-40, -10, 15};  // of -50 to -15 by 5: -40, -25
+  crop.crosslines = LineRange{-40, -20, 15};  // of -50 to -15 by 5: -40, -25
   crop.z = DepthRange{1012.0, 1040.0, 8.0};   // of 1000 by 4
   std::vector<std::string> notices;
   const VolumeSource whole = made_source();

@@ -117,7 +117,9 @@ TEST(ResampleVolume, TheSameGridGivesTheSameBits) {
   const Filled after = filled(resampled(source, regridded(source.geometry, source.geometry.dims())), 4);
   EXPECT_EQ(after.live, before.live);
   for (std::size_t n = 0; n < before.values.size(); ++n) {
-    if (before.live[n / 12] != 0) EXPECT_EQ(after.values[n], before.values[n]);
+    if (before.live[n / 12] != 0) {
+      EXPECT_EQ(after.values[n], before.values[n]);
+    }
   }
 }
 
