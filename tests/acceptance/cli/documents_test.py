@@ -9,7 +9,7 @@ import unittest
 
 from support import BIN, SOURCE, test_data
 
-PAGES = [SOURCE / "README.md", *sorted((SOURCE / "docs").glob("*.md"))]
+PAGES = [SOURCE / "README.md", *sorted((SOURCE / "docs").rglob("*.md"))]
 
 
 def commands(page):
