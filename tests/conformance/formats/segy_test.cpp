@@ -66,7 +66,8 @@ struct Facts {
   template <class Number>
   void expect(const std::string& mark, Number value) const {
     const std::string stated = number(mark);
-    if (!stated.empty()) EXPECT_EQ(static_cast<double>(value), std::stod(stated)) << mark;
+    if (stated.empty()) return;
+    EXPECT_EQ(static_cast<double>(value), std::stod(stated)) << mark;
   }
 };
 
@@ -145,7 +146,7 @@ TEST(RealSegy, EveryFileHasTheFactsOfTheManifestOrIsRefusedForAReason) {
     EXPECT_THROW(whole(file.path), Error);
     ++refused;
   }
-  EXPECT_GT(read, 45);
+  EXPECT_GE(read, 45);
   EXPECT_EQ(refused, static_cast<int>(kRefused.size()));
 }
 
