@@ -39,6 +39,8 @@ void for_each_header(const detail::ReadOnlyFile& file, const Layout& layout, con
   }
 }
 
+static_assert(sizeof(IndexEntry) + sizeof(Offset2) == 24, "what a scan keeps of each trace");
+
 void add_to(HeaderScan& scan, const TraceHeader& header) {
   scan.delay_ms.add(header.delay_ms);
   if (header.interval_us != 0) scan.interval_us.add(header.interval_us);
