@@ -70,6 +70,19 @@ Json unless_unknown(std::int64_t number, bool known) {
   return known ? Json(number) : Json();
 }
 
+// False where the file was refused before its trace headers were read.
+bool has_header_bytes(const Report& report) {
+  return report.inline_word != formats::segy::HeaderWord();
+}
+
+Json bytes_json(const Report& report) {
+  if (!has_header_bytes(report)) return nullptr;
+  return {{"inline", text_of(report.inline_word)},
+          {"crossline", text_of(report.crossline_word)},
+          {"x", text_of(report.x_word)},
+          {"y", text_of(report.y_word)}};
+}
+
 Json segy_json(const Inspection& found) {
   const Report& report = found.report;
   const double metres = report.horizontal_unit == "ft" ? kMetresPerFoot : 1;
@@ -97,11 +110,7 @@ Json segy_json(const Inspection& found) {
       {"vertical_unit", nullptr},
       {"crs", nullptr},
       {"horizontal_unit", report.horizontal_unit.empty() ? Json() : Json(report.horizontal_unit)},
-      {"bytes",
-       {{"inline", text_of(report.inline_word)},
-        {"crossline", text_of(report.crossline_word)},
-        {"x", text_of(report.x_word)},
-        {"y", text_of(report.y_word)}}},
+      {"bytes", bytes_json(report)},
       {"coordinate_scalar", report.x_y_scaled ? Json(report.coordinate_scalar) : Json()},
       {"without_coordinates", unless_unknown(report.without_coordinates, lines)},
       {"residual_m", report.residual * metres},
@@ -154,6 +163,7 @@ std::string traces_text(const Inspection& found) {
 
 std::string map_text(const Inspection& found, const Json& facts) {
   const Report& report = found.report;
+  if (!has_header_bytes(report)) return {};
   std::string text =
       row("header bytes",
           fmt::format("inline {}, crossline {}, X {}, Y {}{}", text_of(report.inline_word),
@@ -196,7 +206,7 @@ std::string segy_text(const Inspection& found, const Json& facts) {
   text += row("domain", "not stated by SEG-Y: --domain and --vertical-unit tell import");
   text += row("inlines", axis_text(found.inlines)) + row("crosslines", axis_text(found.crosslines));
   text += traces_text(found) + map_text(found, facts);
-  text += candidates_text(found.candidates);
+  if (has_header_bytes(report)) text += candidates_text(found.candidates);
   for (const formats::segy::Conflict& conflict : report.conflicts) {
     text += fmt::format("conflict: {} is {} and, in {} trace headers, {}; {} is used\n", conflict.what,
                         conflict.binary_header, conflict.traces, conflict.trace_headers, conflict.used);

@@ -21,7 +21,8 @@ constexpr double kLargestLine = 2e8;    // beyond, a word is no line number
 constexpr double kLargestCoordinate = 1e10;
 constexpr std::size_t kMostColumns = 40;
 constexpr std::size_t kMostCandidates = 16;
-constexpr double kGoodFit = 0.1;  // bins
+constexpr double kGoodFit = 0.1;      // bins
+constexpr double kLeastScore = 0.05;  // chance alone makes candidates below
 
 struct Sample {
   std::size_t header_bytes = 0;
@@ -160,6 +161,19 @@ struct Positions {
   std::vector<std::array<double, 2>> at;
 };
 
+// Integers of coordinates are below the bits of 1.0f, or as floats are absurd: whole numbers beyond both are
+// floats. As integers they would be as regular, since the bits of floats rise with them.
+bool is_float(const HeaderWord& word, const Sample& sample, bool swap) {
+  bool any = false;
+  for (std::size_t n = 0; n < sample.size(); ++n) {
+    if (value_of(word, sample.header(n), swap, 0) == 0) continue;
+    const double size = std::fabs(value_of({word.byte, WordType::kIeee}, sample.header(n), swap, 0));
+    if (!(size >= 1 && size < kLargestCoordinate)) return false;
+    any = true;
+  }
+  return any;
+}
+
 std::vector<Positions> position_pairs(const Sample& sample, const Layout& layout) {
   std::vector<std::array<HeaderWord, 2>> words;
   if (layout.has_extension) {
@@ -171,6 +185,8 @@ std::vector<Positions> position_pairs(const Sample& sample, const Layout& layout
   }
   std::vector<Positions> pairs;
   for (const auto& [x, y] : words) {
+    if (x.type == WordType::kInt32 && is_float(x, sample, layout.swap) && is_float(y, sample, layout.swap))
+      continue;
     HeaderBytes at;
     at.x = x;
     at.y = y;
@@ -350,12 +366,15 @@ std::vector<LineCandidate> find_candidates(const detail::ReadOnlyFile& file, con
     return candidate.inlines > 1 && candidate.crosslines > 1 && candidate.misfit <= kGoodFit;
   });
   if (stacked && !any_grid) {
-    for (const Column& column : columns) {
-      if (auto found = line_candidate(sample, layout, column, positions))
-        candidates.push_back(std::move(*found));
-    }
+    bool numbered = false;  // the order of the file is no better than a number that says the same
     const auto order = line_column(sample, kOrderWord, layout.swap);
-    if (order) {
+    for (const Column& column : columns) {
+      auto found = line_candidate(sample, layout, column, positions);
+      if (!found) continue;
+      numbered = numbered || (found->misfit <= kGoodFit && order && same_lines(column, *order));
+      candidates.push_back(std::move(*found));
+    }
+    if (order && !numbered) {
       auto found = line_candidate(sample, layout, *order, positions);
       // The order of the file is a line only where the traces lie along one.
       if (found && found->misfit <= kGoodFit) candidates.push_back(std::move(*found));
@@ -363,17 +382,17 @@ std::vector<LineCandidate> find_candidates(const detail::ReadOnlyFile& file, con
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const LineCandidate& a, const LineCandidate& b) { return a.score > b.score; });
+  std::erase_if(candidates, [](const LineCandidate& candidate) { return candidate.score < kLeastScore; });
   if (candidates.size() > kMostCandidates) candidates.resize(kMostCandidates);
   for (LineCandidate& candidate : candidates) candidate.one_offset = stacked;
   return candidates;
 }
 
 std::optional<LineCandidate> beyond_doubt(const std::vector<LineCandidate>& candidates) {
-  constexpr double kLeastScore = 0.05;
   constexpr double kNear = 0.7;
   if (candidates.empty()) return std::nullopt;
   const LineCandidate& best = candidates.front();
-  if (!best.one_offset || !(best.misfit <= kGoodFit) || best.score < kLeastScore) return std::nullopt;
+  if (!best.one_offset || !(best.misfit <= kGoodFit)) return std::nullopt;
   if (candidates.size() > 1 && candidates[1].score > kNear * best.score) return std::nullopt;
   return best;
 }

@@ -25,9 +25,9 @@ struct LineCandidate {
   bool one_offset = true;  // all traces have one offset, as stacked ones do
 };
 
-// Best first, 16 at most; words that hold the same numbers in other units are listed once, under the most
-// usual place. Lines that several places tell alike come from the place that is more usual, and of a pair the
-// line number that changes more slowly through the file is taken for the inline, unless a preset says else.
+// Best first, 16 at most, none where there are too few traces to tell. Words that hold the same numbers,
+// maybe in other units, are listed once, under the most usual place. Of a pair, the line number that changes
+// more slowly through the file is taken for the inline, unless a preset says else.
 std::vector<LineCandidate> find_candidates(const detail::ReadOnlyFile& file, const Layout& layout);
 
 // The first one, if it fits its coordinates and no other comes near it.

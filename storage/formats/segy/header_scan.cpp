@@ -87,6 +87,8 @@ void read_headers_only(const detail::ReadOnlyFile& file, const Layout& layout, c
   }
 }
 
+static_assert(sizeof(IndexEntry) + sizeof(Offset2) == 24, "what a scan keeps of each trace");
+
 void add_to(HeaderScan& scan, const TraceHeader& header) {
   scan.delay_ms.add(header.delay_ms);
   if (header.interval_us != 0) scan.interval_us.add(header.interval_us);

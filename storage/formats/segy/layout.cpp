@@ -252,9 +252,10 @@ Layout read_layout(const detail::ReadOnlyFile& file, const Options& options, Rep
   layout.measurement = head.at<std::int16_t>(3255, layout.swap);
   read_texts(head, 0, file, layout, report);
 
+  report.samples = head.at<std::uint16_t>(3221, layout.swap);
+  if (layout.format == nullptr && report.format != kGainFormat) refuse_format(file, report.format);
   layout.samples = sample_count(head, layout.swap, revision2, file);
   report.samples = layout.samples;
-  if (layout.format == nullptr && report.format != kGainFormat) refuse_format(file, report.format);
   layout.trace_header_size = kTraceHeaderSize;
   if (revision2) layout.trace_header_size *= 1 + additional_headers(head, layout.swap, report);
   constexpr int kGainSize = 4;

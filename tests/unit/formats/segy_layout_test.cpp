@@ -135,7 +135,7 @@ TEST(SegyLayout, WhatCannotBeReadIsRefusedWithTheReason) {
   EXPECT_EQ(code_of_scan(folder / "none.sgy"), ErrorCode::kNotFound);
   EXPECT_EQ(code_of_scan(folder.path()), ErrorCode::kFormat);
   EXPECT_EQ(code_of_scan(folder.file("empty.sgy", "")), ErrorCode::kFormat);
-  EXPECT_EQ(code_of_scan(folder.file("head.sgy", std::string(3600, '\0'))), ErrorCode::kFormat);
+  EXPECT_EQ(code_of_scan(folder.file("head.sgy", std::string(3600, '\0'))), ErrorCode::kUnsupported);
   EXPECT_EQ(code_of_scan(folder.file("zeros.sgy", std::string(9000, '\0'))), ErrorCode::kUnsupported);
   SampleSegy made = SampleSegy::grid(2, 2, 4);
   made.format = 4;
