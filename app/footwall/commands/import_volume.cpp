@@ -26,14 +26,14 @@ console::Output import_volume(const VolumeImport& options, const console::Consol
                                survey ? *survey : options.volume.raw_geometry());
   } else if (formats::segy::looks_like_segy(options.file)) {
     tasks::SegyImport import =
-        tasks::segy_source(options.file, options.volume.segy(), console.job().part(0, 0.1));
+        tasks::segy_source(options.file, options.volume.segy(), console.job().part(0, 0.4));
     source = std::move(import.source);
     warnings = import.report.warnings;
   } else {
     throw Error(ErrorCode::kFormat, options.file + " does not look like SEG-Y",
                 "for raw float32 samples add --raw and --dims");
   }
-  const project::VolumeRecord volume = tasks::add_volume(project, name, source, console.job().part(0.1, 1));
+  const project::VolumeRecord volume = tasks::add_volume(project, name, source, console.job().part(0.4, 1));
   for (const std::string& warning : warnings) log::warn(warning);
   console::Output output = volume_output(volume, source.geometry);
   output.json["warnings"] = warnings;

@@ -30,10 +30,10 @@ console::Output run(const Options& options, const console::Console& console) {
   std::vector<std::string> warnings;
   if (!options.segy.empty()) {
     const tasks::SegyImport import =
-        tasks::segy_source(options.segy, options.volume.segy(), console.job().part(0, 0.1));
+        tasks::segy_source(options.segy, options.volume.segy(), console.job().part(0, 0.4));
     warnings = import.report.warnings;
     volume = tasks::new_project(options.project, volume_name(options, options.segy), import.source,
-                                console.job().part(0.1, 1));
+                                console.job().part(0.4, 1));
   } else if (!options.raw.empty()) {
     const tasks::VolumeSource source =
         tasks::raw_source(options.raw, options.volume.raw(), options.volume.raw_geometry());
