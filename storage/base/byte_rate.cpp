@@ -22,8 +22,8 @@ std::string ByteRate::text(std::int64_t done, Clock::time_point now) {
   std::string text = fmt::format("{:.0f} of {:.0f} MB", static_cast<double>(done) * 1e-6,
                                  static_cast<double>(total_) * 1e-6);
   if (done == 0 || now - start_ < kShortest) return text;
-  const bool of_all = window_rate_ == 0 || done >= total_;
-  return text + fmt::format("  {:.0f} MB/s", of_all ? rate(done, start_) : window_rate_);
+  const bool of_all = !window_rate_ || done >= total_;
+  return text + fmt::format("  {:.0f} MB/s", of_all ? rate(done, start_) : *window_rate_);
 }
 
 }  // namespace footwall

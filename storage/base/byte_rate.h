@@ -2,6 +2,7 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace footwall {
@@ -22,7 +23,7 @@ class ByteRate {
   Clock::time_point start_;
   Clock::time_point marked_at_;  // where the window that is being measured began
   std::int64_t marked_ = 0;
-  double window_rate_ = 0;  // MB/s of the last whole window; 0 where there is none
+  std::optional<double> window_rate_;  // MB/s of the last whole window
 };
 
 }  // namespace footwall

@@ -18,11 +18,12 @@ console::Output import_volume(const VolumeImport& options, const console::Consol
   project::Project project = open_project(options.project, project::OpenMode::kWrite);
   const std::string name =
       options.name.empty() ? std::filesystem::path(options.file).stem().string() : options.name;
-  const VolumeInput input =
-      volume_input(options.file, options.raw ? VolumeKind::kRaw : VolumeKind::kTold, options.volume,
-                   options.shape, project.survey(), project.path().parent_path(), console.job().part(0, 0.1));
+  const VolumeKind kind = options.raw ? VolumeKind::kRaw : VolumeKind::kTold;
+  const double headers = share_of_headers(kind);
+  const VolumeInput input = volume_input(options.file, kind, options.volume, options.shape, project.survey(),
+                                         project.path().parent_path(), console.job().part(0, headers));
   const project::VolumeRecord volume =
-      tasks::add_volume(project, name, input.source, console.job().part(0.1, 1));
+      tasks::add_volume(project, name, input.source, console.job().part(headers, 1));
   console::Output output = volume_output(volume, input);
   project.close();
   return output;

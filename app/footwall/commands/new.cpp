@@ -34,11 +34,13 @@ console::Output run(const Options& options, const console::Console& console) {
   project::VolumeRecord volume;
   VolumeInput input;
   if (!file.empty()) {
-    input = volume_input(file, kind, options.volume, options.shape, std::nullopt,
-                         std::filesystem::path(options.project).parent_path(), console.job().part(0, 0.1));
+    const double headers = share_of_headers(kind);
+    input =
+        volume_input(file, kind, options.volume, options.shape, std::nullopt,
+                     std::filesystem::path(options.project).parent_path(), console.job().part(0, headers));
     const std::string name =
         options.name.empty() ? std::filesystem::path(file).stem().string() : options.name;
-    volume = tasks::new_project(options.project, name, input.source, console.job().part(0.1, 1));
+    volume = tasks::new_project(options.project, name, input.source, console.job().part(headers, 1));
   } else if (!options.synthetic.empty()) {
     if (options.shape.given()) {
       throw Error(ErrorCode::kUsage, "--inlines, --crosslines, --z and --resample go with a file",

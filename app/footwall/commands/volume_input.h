@@ -12,6 +12,11 @@ namespace footwall::commands {
 
 enum class VolumeKind : std::uint8_t { kTold, kSegy, kNrrd, kRaw };  // kTold: by the file's content
 
+// What of the whole import volume_input() takes: SEG-Y's headers stand among its samples.
+constexpr double share_of_headers(VolumeKind kind) {
+  return kind == VolumeKind::kRaw ? 0 : 0.4;
+}
+
 struct VolumeInput {
   tasks::VolumeSource source;
   formats::ImportReport report;       // read: traces, skipped: doubled and dead ones

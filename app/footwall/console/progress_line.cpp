@@ -7,7 +7,6 @@
 namespace footwall::console {
 namespace {
 
-using std::chrono::duration_cast;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
@@ -15,6 +14,8 @@ constexpr double kLineEvery = 0.05;
 constexpr seconds kLineAfter{30};
 constexpr milliseconds kBarEvery{100};
 constexpr int kBarCells = 24;
+constexpr seconds kPaceOver{5};
+constexpr double kLongest = 30 * 86400.0;  // seconds; what a stalled job would say helps nobody
 
 }  // namespace
 
@@ -26,9 +27,23 @@ std::string spoken(std::chrono::seconds duration) {
 }
 
 ProgressLine::ProgressLine(bool terminal, int columns, Clock::time_point start)
-    : terminal_(terminal), columns_(columns), start_(start), shown_at_(start) {}
+    : terminal_(terminal), columns_(columns), shown_at_(start), older_{start}, newer_{start} {}
+
+std::string ProgressLine::time_left(const Progress& progress, Clock::time_point now) {
+  if (now - newer_.at >= kPaceOver) {
+    older_ = newer_;
+    newer_ = {now, progress.fraction};
+  }
+  const double spent = std::chrono::duration<double>(now - older_.at).count();
+  const double gained = progress.fraction - older_.fraction;
+  if (progress.fraction < 0.02 || progress.fraction >= 1 || spent < 1 || gained <= 0) return {};
+  const double left = spent * (1 - progress.fraction) / gained;
+  if (left < 1 || left > kLongest) return {};
+  return "  " + spoken(seconds(static_cast<long>(left + 0.5))) + " left";
+}
 
 std::string ProgressLine::update(const Progress& progress, Clock::time_point now) {
+  const std::string left = time_left(progress, now);
   const bool new_phase = progress.phase != shown_phase_;
   const bool finished = progress.fraction >= 1 && shown_ < 1;
   const bool due = terminal_ ? now - shown_at_ >= kBarEvery
@@ -40,11 +55,7 @@ std::string ProgressLine::update(const Progress& progress, Clock::time_point now
 
   std::string tail;
   if (!progress.amounts.empty()) tail += "  " + progress.amounts;
-  const auto spent = duration_cast<seconds>(now - start_);
-  if (progress.fraction > 0.02 && progress.fraction < 1 && spent.count() >= 1) {
-    const double left = static_cast<double>(spent.count()) * (1 - progress.fraction) / progress.fraction;
-    if (left >= 1) tail += "  " + spoken(seconds(static_cast<long>(left + 0.5))) + " left";
-  }
+  tail += left;
   if (!terminal_) return fmt::format("{:3.0f} %  {}{}\n", progress.fraction * 100, progress.phase, tail);
 
   const int filled = std::clamp(static_cast<int>(progress.fraction * kBarCells), 0, kBarCells);

@@ -13,6 +13,8 @@ class PageBuffer {
   // ends before.
   enum class Way : std::uint8_t { kPastCache, kThroughCache };
   void read(const ReadOnlyFile& file, std::int64_t offset, std::int64_t size, Way way);
+  // The same only if all of it is in the page cache; else false, and it holds nothing.
+  bool read_if_cached(const ReadOnlyFile& file, std::int64_t offset, std::int64_t size);
 
   bool holds(std::int64_t offset, std::int64_t size) const {
     return offset >= offset_ && offset + size <= offset_ + size_;
@@ -21,6 +23,8 @@ class PageBuffer {
   const std::byte* at(std::int64_t offset) const { return bytes_.get() + (offset - start_); }
 
  private:
+  void make_room(std::int64_t offset, std::int64_t size);
+
   Pages bytes_;
   std::size_t capacity_ = 0;
   std::int64_t start_ = 0;  // offset of the first byte in memory

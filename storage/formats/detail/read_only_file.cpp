@@ -94,6 +94,11 @@ std::size_t ReadOnlyFile::read_pages(std::int64_t offset, std::span<std::byte> p
   return done;
 }
 
+bool ReadOnlyFile::read_if_cached(std::int64_t offset, std::span<std::byte> bytes) const {
+  iovec all{bytes.data(), bytes.size()};
+  return ::preadv2(descriptor_, &all, 1, offset, RWF_NOWAIT) == static_cast<ssize_t>(bytes.size());
+}
+
 void ReadOnlyFile::will_need(std::int64_t offset, std::int64_t bytes) const {
   ::posix_fadvise(descriptor_, offset, bytes, POSIX_FADV_WILLNEED);
 }

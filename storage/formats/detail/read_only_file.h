@@ -24,6 +24,9 @@ class ReadOnlyFile {
   // file system can, which leaves no copy in the cache and costs hardly any processor time. Returns how many
   // bytes were read, fewer only at the file's end. Throws kIo.
   std::size_t read_pages(std::int64_t offset, std::span<std::byte> pages) const;
+  // Fills `bytes` from `offset` if all of them are in the page cache; else returns false without waiting for
+  // the disk, and `bytes` are undefined.
+  bool read_if_cached(std::int64_t offset, std::span<std::byte> bytes) const;
   // Starts to read these bytes into the page cache and returns at once.
   void will_need(std::int64_t offset, std::int64_t bytes) const;
   // Tells the system that the file will be read from front to back.

@@ -18,7 +18,7 @@ constexpr std::int64_t kPieceBytes = std::int64_t{2} << 20;
 // Traces longer than this are skipped over; reading the headers alone is then faster than reading everything.
 constexpr std::int64_t kLongTrace = std::int64_t{64} << 10;
 constexpr std::int64_t kAhead = 256;       // headers of long traces that are asked for at once
-constexpr double kFastDisk = 400e6;        // bytes a second
+constexpr double kFastDisk = 200e6;        // bytes a second
 constexpr std::int64_t kTried = 64 << 20;  // bytes, after which the disk's speed is known
 constexpr const char* kPhase = "read headers";
 

@@ -54,14 +54,18 @@ const std::byte* TraceWindows::bytes_of(const TraceRun& run, std::int64_t runs,
   if (window == nullptr) {
     const auto before = static_cast<std::int64_t>(windows_.size());
     window = &free_window();
-    std::int64_t wanted = std::min(kWindowBytes, kBytes / runs);
-    // The first windows have different lengths, so that later they are not all used up in the same block:
-    // reading goes on evenly beside decoding.
-    if (static_cast<std::int64_t>(windows_.size()) > before) wanted = wanted * (1 + before % kSteps) / kSteps;
-    const std::int64_t more = std::clamp<std::int64_t>(wanted / layout.trace_size - run.count, 0, run.next);
-    const std::int64_t bytes = bytes_in(run.count + more, layout);
-    window->buffer.read(file, offset, bytes, way_for(bytes));
-    window->end = end + more;
+    window->end = end;
+    // A run that is cached needs no window: the shorter the piece, the nearer it is when it is decoded.
+    if (!window->buffer.read_if_cached(file, offset, bytes_in(run.count, layout))) {
+      std::int64_t wanted = std::min(kWindowBytes, kBytes / runs);
+      // The first windows have different lengths, so that later they are not all used up in the same block:
+      // reading goes on evenly beside decoding.
+      if (static_cast<std::int64_t>(windows_.size()) > before)
+        wanted = wanted * (1 + before % kSteps) / kSteps;
+      window->end += std::clamp<std::int64_t>(wanted / layout.trace_size - run.count, 0, run.next);
+      const std::int64_t bytes = bytes_in(window->end - run.first, layout);
+      window->buffer.read(file, offset, bytes, way_for(bytes));
+    }
   }
   window->last_used = end == window->end ? 0 : ++time_;
   return window->buffer.at(offset);

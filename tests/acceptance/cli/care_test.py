@@ -6,6 +6,7 @@ import os
 import pathlib
 import signal
 import socket
+import struct
 import subprocess
 import unittest
 
@@ -54,6 +55,42 @@ class Care(FootwallTest):
         self.assertEqual([line for line in words.splitlines() if line.startswith(("footwall", "error", "warning"))],
                          ["footwall: cancelled (nothing was changed)"])
         self.assertEqual(os.listdir(self.folder), [])
+
+    def big_segy(self, inlines, crosslines, samples):
+        """IEEE float32 zeros; the file system keeps no block for most of them."""
+        path = self.path("big.sgy")
+        with open(path, "wb") as file:
+            binary = bytearray(400)
+            struct.pack_into(">h", binary, 16, 4000)
+            struct.pack_into(">h", binary, 20, samples)
+            struct.pack_into(">h", binary, 24, 5)
+            file.write(b"\x40" * 3200 + binary)
+            for trace in range(inlines * crosslines):
+                i, j = divmod(trace, crosslines)
+                header = bytearray(240)
+                struct.pack_into(">iiii", header, 180, 500000 + 25 * i, 6000000 + 25 * j, i + 1, j + 1)
+                file.write(header)
+                file.seek(4 * samples, os.SEEK_CUR)
+            file.truncate()
+        return path
+
+    def test_a_cancelled_import_leaves_no_half_volume(self):
+        segy = self.big_segy(144, 144, 8000)
+        self.footwall("new", "p.footwall")
+        before = sorted(os.listdir(self.folder))
+        for step in ("read headers", "write"):
+            with self.subTest(step):
+                importer = self.running("import", "volume", "p.footwall", segy, "--domain", "time",
+                                        "--vertical-unit", "ms")
+                for line in importer.stderr:  # it is under way
+                    if step in line:
+                        break
+                importer.send_signal(signal.SIGINT)
+                _, words = importer.communicate(timeout=60)
+                self.assertEqual(importer.returncode, 130, words)
+                self.assertIn("footwall: cancelled", words)
+                self.assertEqual(sorted(os.listdir(self.folder)), before)
+                self.assertEqual(self.footwall("info", "p.footwall")["volumes"], [])
 
     def test_a_mesh_too_fine_to_hold_is_refused_at_once(self):
         project = self.synthetic(size="64x56x48")

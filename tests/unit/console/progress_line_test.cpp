@@ -21,6 +21,27 @@ TEST(ProgressLine, AFileGetsALinePerFivePercentOrHalfMinute) {
   EXPECT_EQ(line.end(), "");
 }
 
+TEST(ProgressLine, ShowsTheRateThatIsReportedAndTheTimeLeftAtThePaceOfTheLastSeconds) {
+  const Clock::time_point start{};
+  ProgressLine line(false, 80, start);
+  line.update({0.0, "read headers", ""}, start);
+  EXPECT_EQ(line.update({0.4, "read headers", "1074 of 1074 MB  900 MB/s"}, start + seconds(4)),
+            " 40 %  read headers  1074 of 1074 MB  900 MB/s  6 s left\n");
+  // Slower from here on: 3 % a second.
+  for (int second = 5; second <= 18; ++second) {
+    line.update({0.4 + 0.03 * (second - 4), "write", "5 MB/s"}, start + seconds(second));
+  }
+  EXPECT_EQ(line.update({0.88, "write", ""}, start + seconds(20)), " 88 %  write  4 s left\n");
+  EXPECT_EQ(line.update({1, "write", ""}, start + seconds(24)), "100 %  write\n");
+}
+
+TEST(ProgressLine, AJobThatStandsStillPromisesNothing) {
+  const Clock::time_point start{};
+  ProgressLine line(false, 80, start);
+  for (int minute = 0; minute < 5; ++minute) line.update({0.5, "write", ""}, start + minute * seconds(60));
+  EXPECT_EQ(line.update({0.5, "write", ""}, start + seconds(360)), " 50 %  write\n");
+}
+
 TEST(ProgressLine, ATerminalGetsOneLineThatNeverWraps) {
   const Clock::time_point start{};
   ProgressLine line(true, 40, start);

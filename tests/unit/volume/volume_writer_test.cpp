@@ -126,6 +126,27 @@ TEST_F(VolumeTest, TheSameVolumeGivesTheSameBytesAndStatisticsInAnyChunks) {
   EXPECT_TRUE(bytes(path_) == bytes(folder_ / "again.h5"));
 }
 
+// Zeros of both signs are the smallest values: which one a thread meets first must not show in the file.
+TEST_F(VolumeTest, TheFileIsTheSameForAnyNumberOfThreads) {
+  WriteOptions options = options_for({40, 50, 60});
+  options.chunk = survey::Index{8, 8, 16};
+  const auto value = [](std::int64_t i, std::int64_t j, std::int64_t k) {
+    const std::int64_t n = (i * 7 + j * 5 + k * 3) % 11;
+    return n < 3 ? 0.0F : n < 6 ? -0.0F : wavy(i, j, k) * wavy(i, j, k);
+  };
+  const auto alive = [](std::int64_t i, std::int64_t j) { return (i + j) % 9 != 0; };
+  const int before = omp_get_max_threads();
+  std::string expected;
+  for (const int threads : {1, 2, 7}) {
+    omp_set_num_threads(threads);
+    write_volume(path_, options, source_of(value, alive), JobContext());
+    const std::string bytes = content_of(path_);
+    if (expected.empty()) expected = bytes;
+    EXPECT_TRUE(bytes == expected) << threads << " threads";
+  }
+  omp_set_num_threads(before);
+}
+
 TEST_F(VolumeTest, BlocksAreWholeTracesInOrder) {
   WriteOptions options = options_for({20, 30, 40});
   options.chunk = survey::Index{8, 16, 8};
