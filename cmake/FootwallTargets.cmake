@@ -57,7 +57,8 @@ function(footwall_unit_test NAME)
   if(ARG_LABEL STREQUAL "unit")
     add_dependencies(unit_tests ${target})
   endif()
-  set_tests_properties(${target} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+  set_tests_properties(${target} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT}
+    ENVIRONMENT_MODIFICATION PATH=path_list_prepend:${CMAKE_BINARY_DIR}/launcher)
 endfunction()
 
 # footwall_slow_test(mesh FACTOR 40 TEST Mesh.StaysSoundUnderRandomOperations)
@@ -104,7 +105,7 @@ function(footwall_mpi_test NAME)
   target_precompile_headers(${target} REUSE_FROM footwall_pch)
   foreach(ranks IN LISTS ARG_RANKS)
     add_test(NAME ${target}.np${ranks}
-      COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe --bind-to none -n ${ranks} $<TARGET_FILE:${target}>)
+      COMMAND ${MPIEXEC_EXECUTABLE} ${FOOTWALL_MPIEXEC_FLAGS} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:${target}>)
     set_tests_properties(${target}.np${ranks} PROPERTIES LABELS mpi TIMEOUT ${ARG_TIMEOUT}
       ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMP_NUM_THREADS=1;OMPI_MCA_mpi_yield_when_idle=1;OMPI_MCA_rmaps_base_oversubscribe=1")
   endforeach()

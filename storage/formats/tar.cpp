@@ -46,6 +46,15 @@ std::string reason_of(archive* from) {
   return text != nullptr ? text : "unknown reason";
 }
 
+// For messages: an entry's name may hold what a terminal obeys.
+std::string shown(const std::string& name) {
+  std::string text = detail::as_utf8(name.substr(0, 200));
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  return text;
+}
+
 bool is_text(const std::string& name) {
   for (const unsigned char c : name) {
     if (c < 0x20 || c == 0x7f) return false;
@@ -105,8 +114,7 @@ TarWriter::~TarWriter() {
 void TarWriter::begin(const std::string& name, std::int64_t bytes) {
   state_->require_whole();
   if (const std::string why = unfit_for_tar(name); !why.empty() || bytes < 0) {
-    throw Error(ErrorCode::kInvalid,
-                fmt::format("'{}' cannot be a name in an archive: {}", detail::as_utf8(name), why),
+    throw Error(ErrorCode::kInvalid, fmt::format("'{}' cannot be a name in an archive: {}", shown(name), why),
                 "rename the file");
   }
   const Utf8Here utf8;
@@ -158,7 +166,7 @@ struct TarReader::State {
   }
   Error refused(const std::string& entry, const std::string& why) const {
     return {ErrorCode::kFormat,
-            fmt::format("{} is not unpacked: its entry '{}' {}", path.string(), detail::as_utf8(entry), why),
+            fmt::format("{} is not unpacked: its entry '{}' {}", path.string(), shown(entry), why),
             "it was not made by footwall pack"};
   }
   std::string checked_name(archive_entry* entry) const;

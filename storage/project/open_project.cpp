@@ -82,7 +82,7 @@ std::string writer_in_words(const std::filesystem::path& path) {
   const auto lock_file = detail::lock_path(path);
   const detail::Holder holder = detail::holder_of(lock_file);
   if (holder.token.empty() || holder.dead()) return {};
-  return fmt::format("{} is writing to the project; this is what is there now", holder.in_words());
+  return fmt::format("{} holds the project for writing; this is what is there now", holder.in_words());
 }
 
 std::unique_ptr<detail::WriterLock> lock_for(FileSystem kind, const std::filesystem::path& path,

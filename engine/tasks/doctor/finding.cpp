@@ -24,9 +24,11 @@ bool Checkup::run(const std::string& name, const std::function<Finding()>& check
     finding = check();
   } catch (const Error& error) {
     if (error.code() == ErrorCode::kCancelled) throw;
-    finding = failed(error.message(), error.hint());
+    finding =
+        failed(error.message(),
+               error.hint().empty() ? "choose another folder, or ask who runs this machine" : error.hint());
   } catch (const std::exception& error) {
-    finding = failed(error.what(), {});
+    finding = failed(error.what(), "this is a bug of Footwall: please report it");
   }
   finding.name = name;
   findings_.push_back(std::move(finding));

@@ -29,6 +29,19 @@ std::int64_t free_bytes(const std::filesystem::path& folder) {
   return static_cast<std::int64_t>(space.f_bavail) * static_cast<std::int64_t>(space.f_frsize);
 }
 
+// Asked of the system first; where it does not know (32 bits is its answer for any file system that it has
+// not heard of) a file of 5 GiB without bytes in it is tried, if there is much more room than that.
+bool holds_large_files(const std::filesystem::path& place) {
+  if (::pathconf(place.c_str(), _PC_FILESIZEBITS) > 33 || free_bytes(place) < 20 * kGiB) return true;
+  const auto path = place / "large";
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (file < 0) throw io_error("write", path.string(), errno);
+  const bool held = ::ftruncate(file, 5 * kGiB) == 0;
+  ::close(file);
+  ::unlink(path.c_str());
+  return held;
+}
+
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
@@ -82,10 +95,10 @@ Finding check_names(const std::filesystem::path& place) {
     return warning("names with letters beyond ASCII do not come back as they were given",
                    "use plain letters for projects and volumes here");
   }
-  errno = 0;
-  const long bits = ::pathconf(place.c_str(), _PC_FILESIZEBITS);
-  if (bits > 0 && bits <= 33)
-    return failed("a file may have 4 GiB at most", "choose a folder on another file system");
+  if (!holds_large_files(place)) {
+    return failed("a file cannot have more than 4 GiB",
+                  "choose a folder on another file system, or raise the limit (ulimit -f)");
+  }
   return ok("UTF-8, and files beyond 4 GiB");
 }
 

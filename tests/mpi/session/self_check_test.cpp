@@ -67,7 +67,7 @@ TEST_F(SelfCheck, FactsComeBackAsTheyWere) {
   EngineFacts facts;
   facts.ranks = 2;
   facts.mpi_library = {"A \"quoted\" one", "B"};
-  facts.hdf5_trouble = "x";
+  facts.hdf5_trouble = std::string("x");
   const EngineFacts back = engine_facts_from(to_json(facts));
   EXPECT_EQ(back.mpi_library, facts.mpi_library);
   EXPECT_EQ(back.hdf5_trouble, "x");

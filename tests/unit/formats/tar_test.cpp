@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "rounds.h"
 #include "scratch_folder.h"
 #include "storage/base/error.h"
 #include "unit/formats/hostile_tar.h"
@@ -135,7 +136,7 @@ TEST_F(Tar, DamagedArchivesAreReadOrRefused) {
   write({{"a", std::string(3000, 'a')}, {std::string(150, 'n'), "b"}});
   const std::string whole = content_of(path_);
   std::uint64_t state = 7;
-  for (int n = 0; n < 1500; ++n) {
+  for (int n = 0; n < rounds(200); ++n) {
     std::string bytes = whole;
     for (int k = 0; k < 3; ++k) {
       state = state * 6364136223846793005U + 1442695040888963407U;
