@@ -1,29 +1,11 @@
 // SEG-Y: the header pass with several options, then every sample.
-#include <sys/mman.h>
-#include <unistd.h>
-
+#include "fuzz/memory_file.h"
 #include "fuzz/target.h"
 #include "storage/base/error.h"
 #include "storage/formats/segy/segy_file.h"
 
 namespace footwall::fuzz {
 namespace {
-
-// A file in memory under a path.
-class MemoryFile {
- public:
-  explicit MemoryFile(const std::string& bytes) : file_(::memfd_create("fuzz", MFD_CLOEXEC)) {
-    require(file_ >= 0, "memfd_create");
-    require(::write(file_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()), "write");
-  }
-  ~MemoryFile() { ::close(file_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  std::string path() const { return "/proc/self/fd/" + std::to_string(file_); }
-
- private:
-  int file_ = -1;
-};
 
 // Gaps may make a survey much larger than its file; then its corners stand for it.
 constexpr std::int64_t kMostSamples = 1 << 14;

@@ -7,7 +7,8 @@ namespace {
 
 bool run(const std::string& bytes) {
   const auto read = formats::gocad_tsurf::parse(bytes);
-  for (const survey::Surface& surface : read.surfaces) {
+  for (const formats::gocad_tsurf::Object& object : read.objects) {
+    const survey::Surface& surface = object.surface;
     for (const survey::WorldPoint& point : surface.vertices) {
       if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) return false;
     }
