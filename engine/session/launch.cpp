@@ -26,13 +26,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kResultLimit = std::size_t{256} << 20;
 constexpr std::size_t kKeptLines = 12;
 
-std::filesystem::path engine_beside_us() {
-  std::error_code failure;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failure);
-  if (failure) throw Error(ErrorCode::kEngine, "cannot tell where this program is", "name the engine's path");
-  return self.parent_path() / "footwall-engine";
-}
-
 int ranks_of(const LaunchOptions& options) {
   return options.ranks > 0 ? options.ranks : default_ranks();
 }
@@ -42,7 +35,7 @@ int threads_of(const LaunchOptions& options) {
 
 std::vector<std::string> with_engine(std::vector<std::string> command, const LaunchOptions& options,
                                      const std::filesystem::path& job) {
-  command.push_back((options.engine.empty() ? engine_beside_us() : options.engine).string());
+  command.push_back(engine_program(options).string());
   command.insert(command.end(), {"batch", std::filesystem::absolute(job).string()});
   if (!options.volume.empty()) {
     command.insert(command.end(), {"--volume", std::filesystem::absolute(options.volume).string()});
@@ -135,6 +128,14 @@ class Stopper {
 };
 
 }  // namespace
+
+std::filesystem::path engine_program(const LaunchOptions& options) {
+  if (!options.engine.empty()) return options.engine;
+  std::error_code failure;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failure);
+  if (failure) throw Error(ErrorCode::kEngine, "cannot tell where this program is", "name the engine's path");
+  return self.parent_path() / "footwall-engine";
+}
 
 std::vector<std::string> launch_command(const LaunchOptions& options, const std::filesystem::path& job) {
   return with_engine(choose_launcher(ranks_of(options), threads_of(options), {}).words, options, job);

@@ -24,6 +24,9 @@ int default_threads();
 // Cores of the affinity mask, or the cgroup's CPU quota where that is smaller; at least 1.
 int usable_cores();
 
+// options.engine, or the one beside this program. Throws kEngine where that cannot be told.
+std::filesystem::path engine_program(const LaunchOptions& options);
+
 // The command that would run: the launcher's words (launcher.h), then the engine, "batch", the job.
 std::vector<std::string> launch_command(const LaunchOptions& options, const std::filesystem::path& job);
 

@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "engine/session/child.h"
+#include "engine/session/launcher.h"
+#include "engine/session/private_folder.h"
 
 namespace footwall::session {
 namespace {
@@ -17,20 +18,6 @@ using Json = nlohmann::json;
 
 constexpr const char* kMark = "{\"engine\":";
 constexpr auto kPatience = std::chrono::seconds(60);
-
-std::vector<std::string> command_for(const LaunchOptions& options, const std::filesystem::path& folder) {
-  std::vector<std::string> command = launch_command(options, "JOB.json");
-  // The same launcher as a job's, with our word in the place of "batch JOB.json".
-  require(command.size() > 2, "a launcher's command");
-  command.resize(command.size() - 2);
-  command.insert(command.end(), {"check", std::filesystem::absolute(folder).string()});
-  return command;
-}
-
-std::vector<std::string> settings() {
-  if (::geteuid() != 0) return {};
-  return {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
-}
 
 }  // namespace
 
@@ -69,8 +56,15 @@ EngineFacts check_engine(const LaunchOptions& options, const std::filesystem::pa
                          const JobContext& job) {
   job.check();
   const auto end = std::chrono::steady_clock::now() + kPatience;
-  const std::vector<std::string> command = command_for(options, folder);
-  Child child(command, settings());
+  // The same launcher as a job's, with another word behind it.
+  const PrivateFolder for_mpi(home_in_memory());
+  const Launcher launcher =
+      choose_launcher(options.ranks > 0 ? options.ranks : default_ranks(),
+                      options.threads > 0 ? options.threads : default_threads(), for_mpi.path());
+  std::vector<std::string> command = launcher.words;
+  command.insert(command.end(),
+                 {engine_program(options).string(), "check", std::filesystem::absolute(folder).string()});
+  Child child(command, launcher.settings);
   // A launcher of another MPI starts every rank as a world of its own: several answers, of one rank each.
   std::optional<EngineFacts> answer;
   std::string last_words;
