@@ -31,7 +31,7 @@ bool reads_alike(const formats::nrrd::NrrdFile& file, const formats::raw::AxisOr
 bool run(const std::string& bytes) {
   const MemoryFile file(bytes);
   formats::nrrd::looks_like_nrrd(file.path());
-  const formats::nrrd::NrrdFile nrrd(file.path(), "/tmp", {});
+  const formats::nrrd::NrrdFile nrrd(file.path(), "/dev/shm", {});
   const formats::raw::AxisOrder order = formats::nrrd::default_order(nrrd.header());
   if (!reads_alike(nrrd, order)) return false;
   formats::nrrd::Meaning meaning;
