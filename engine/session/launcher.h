@@ -1,6 +1,7 @@
 // How the ranks of a job are started here: what a batch system granted, and the command in front of the
 // engine's. No MPI calls.
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>

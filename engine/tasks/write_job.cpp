@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/tasks/job_texts.h"
+#include "storage/base/byte_rate.h"
 #include "storage/base/error.h"
 #include "storage/base/partial_file.h"
 
@@ -47,9 +48,10 @@ void take_volume(const fs::path& from, const fs::path& to, const JobContext& con
   const Descriptor source(from, O_RDONLY);
   const Descriptor target(to, O_WRONLY | O_CREAT | O_EXCL);
   std::vector<char> bytes(std::size_t{8} << 20);
+  ByteRate rate(size);
   for (std::int64_t done = 0; done < size;) {
     context.report(static_cast<double>(done) / static_cast<double>(size), "copy the volume",
-                   fmt::format("{} of {} MB", done / 1000000, size / 1000000));
+                   rate.text(done, ByteRate::Clock::now()));
     const ssize_t got = ::read(source, bytes.data(), bytes.size());
     if (got <= 0) throw io_error("read", from, got < 0 ? errno : EIO);
     for (ssize_t at = 0; at < got;) {

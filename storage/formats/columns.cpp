@@ -10,6 +10,7 @@
 
 #include "storage/base/error.h"
 #include "storage/base/text.h"
+#include "storage/formats/detail/letters.h"
 #include "storage/formats/detail/point_table.h"
 #include "storage/formats/detail/stick_collector.h"
 #include "storage/formats/z_unit.h"
@@ -58,10 +59,7 @@ ColumnMap map_of_headings(std::string_view row, char delimiter) {
   std::vector<Field> fields;
   detail::split_fields(row, delimiter, fields);
   for (std::size_t n = 0; n < std::min<std::size_t>(fields.size(), kMostColumns); ++n) {
-    std::string heading = " ";
-    for (const char c : fields[n].text)
-      heading += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    heading += ' ';
+    const std::string heading = ' ' + detail::lower(fields[n].text) + ' ';
     for (const Column& column : kColumns) {
       if (column.headings.find(heading) == std::string_view::npos || heading == "  ") continue;
       int& place = map.*column.place;

@@ -10,6 +10,7 @@
 #include "storage/base/error.h"
 #include "storage/base/partial_file.h"
 #include "storage/base/text.h"
+#include "storage/formats/detail/letters.h"
 #include "storage/formats/detail/utf8.h"
 #include "storage/formats/gocad_tsurf.h"
 #include "storage/formats/z_unit.h"
@@ -197,8 +198,7 @@ class Parser {
   }
 
   void z_positive(const Row& row) {
-    std::string word(row[1]);
-    for (char& letter : word) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    std::string word = detail::lower(row[1]);
     std::erase(word, '"');
     if (word == "depth" || word == "down") {
       object_.z_positive_up = false;

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "storage/base/error.h"
 #include "storage/base/text.h"
+#include "storage/formats/detail/letters.h"
 #include "storage/formats/detail/stick_collector.h"
 #include "storage/formats/detail/utf8.h"
 #include "storage/formats/z_unit.h"
@@ -98,10 +98,7 @@ class Reader {
   void begin(std::string_view row) {
     profile_ = profile_of(row);
     ended_ = left_out_ = false;
-    std::string kind;
-    for (const char c : profile_.ifdf) {
-      kind.push_back(static_cast<char>(std::tolower(static_cast<unsigned char>(c))));
-    }
+    const std::string kind = detail::lower(profile_.ifdf);
     if (!kind.empty() && kind.find("fault") == std::string::npos) {
       left_out_ = true;
       const std::string name = detail::as_utf8(profile_.name);

@@ -32,6 +32,8 @@ enum class SampleType : std::uint8_t {
   kFloat32,
   kFloat64
 };
+// Any of the spellings of the definition, in any case; nothing for other words.
+std::optional<SampleType> type_named(std::string_view word);
 std::string_view name_of(SampleType type);  // NRRD's name, e.g. "int16"
 std::int64_t size_of(SampleType type);      // bytes
 

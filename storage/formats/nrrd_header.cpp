@@ -2,11 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "storage/base/error.h"
 #include "storage/base/text.h"
+#include "storage/formats/detail/letters.h"
+#include "storage/formats/detail/nrrd_words.h"
 #include "storage/formats/detail/read_only_file.h"
 #include "storage/formats/detail/utf8.h"
 #include "storage/formats/nrrd.h"
@@ -18,104 +19,6 @@ constexpr double kUnstated = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kMostHeader = std::int64_t{16} << 20;  // bytes; a list may name many files
 constexpr std::int64_t kMostFiles = 1000000;
 constexpr std::size_t kMostDimension = 16;  // NRRD's own limit
-
-struct TypeName {
-  std::string_view name;
-  SampleType type;
-};
-// All the spellings that the definition lists.
-constexpr TypeName kTypes[] = {{"signed char", SampleType::kInt8},
-                               {"int8", SampleType::kInt8},
-                               {"int8_t", SampleType::kInt8},
-                               {"uchar", SampleType::kUint8},
-                               {"unsigned char", SampleType::kUint8},
-                               {"uint8", SampleType::kUint8},
-                               {"uint8_t", SampleType::kUint8},
-                               {"short", SampleType::kInt16},
-                               {"short int", SampleType::kInt16},
-                               {"signed short", SampleType::kInt16},
-                               {"signed short int", SampleType::kInt16},
-                               {"int16", SampleType::kInt16},
-                               {"int16_t", SampleType::kInt16},
-                               {"ushort", SampleType::kUint16},
-                               {"unsigned short", SampleType::kUint16},
-                               {"unsigned short int", SampleType::kUint16},
-                               {"uint16", SampleType::kUint16},
-                               {"uint16_t", SampleType::kUint16},
-                               {"int", SampleType::kInt32},
-                               {"signed int", SampleType::kInt32},
-                               {"int32", SampleType::kInt32},
-                               {"int32_t", SampleType::kInt32},
-                               {"uint", SampleType::kUint32},
-                               {"unsigned int", SampleType::kUint32},
-                               {"uint32", SampleType::kUint32},
-                               {"uint32_t", SampleType::kUint32},
-                               {"longlong", SampleType::kInt64},
-                               {"long long", SampleType::kInt64},
-                               {"long long int", SampleType::kInt64},
-                               {"signed long long", SampleType::kInt64},
-                               {"signed long long int", SampleType::kInt64},
-                               {"int64", SampleType::kInt64},
-                               {"int64_t", SampleType::kInt64},
-                               {"ulonglong", SampleType::kUint64},
-                               {"unsigned long long", SampleType::kUint64},
-                               {"unsigned long long int", SampleType::kUint64},
-                               {"uint64", SampleType::kUint64},
-                               {"uint64_t", SampleType::kUint64},
-                               {"float", SampleType::kFloat32},
-                               {"double", SampleType::kFloat64}};
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& letter : out) {
-    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-  }
-  return out;
-}
-
-// Numbers as NRRD has them: "nan" and "inf" too.
-std::optional<double> number(std::string_view word) {
-  return text::number(word);
-}
-
-// "(1,2,3)" or "none".
-std::optional<std::vector<double>> vector_from(std::string_view word) {
-  if (word.size() < 3 || word.front() != '(' || word.back() != ')') return std::nullopt;
-  std::vector<double> values;
-  for (const std::string_view part : text::split(word.substr(1, word.size() - 2), ',')) {
-    const auto value = number(part);
-    if (!value) return std::nullopt;
-    values.push_back(*value);
-  }
-  return values;
-}
-
-// Vectors may have blanks inside their brackets.
-std::vector<std::string_view> vector_words(std::string_view value) {
-  std::vector<std::string_view> words;
-  std::size_t at = 0;
-  while ((at = value.find_first_not_of(" \t", at)) != std::string_view::npos) {
-    std::size_t end = value[at] == '(' ? value.find(')', at) : value.find_first_of(" \t", at);
-    if (value[at] == '(' && end != std::string_view::npos) ++end;
-    if (end == std::string_view::npos) end = value.size();
-    words.push_back(value.substr(at, end - at));
-    at = end;
-  }
-  return words;
-}
-
-std::vector<std::string> quoted_words(std::string_view value) {
-  std::vector<std::string> words;
-  std::size_t at = 0;
-  while ((at = value.find_first_not_of(" \t", at)) != std::string_view::npos) {
-    const bool quoted = value[at] == '"';
-    if (quoted) ++at;
-    const std::size_t end = std::min(value.find_first_of(quoted ? "\"" : " \t", at), value.size());
-    words.push_back(detail::as_utf8(value.substr(at, end - at)));
-    at = end + (quoted && end < value.size() ? 1 : 0);
-  }
-  return words;
-}
 
 class Parser {
  public:
@@ -165,7 +68,7 @@ bool Parser::next(std::string_view& line) {
 std::vector<double> Parser::axis_numbers(std::string_view value) {
   std::vector<double> numbers;
   for (const std::string_view word : text::words(value)) {
-    const auto one = number(word);
+    const auto one = text::number(word);
     if (!one) wrong(fmt::format("'{}' is no number", word));
     numbers.push_back(*one);
   }
@@ -263,19 +166,17 @@ void Parser::field(const std::string& name, std::string_view value) {
     return;
   }
   if (name == "type") {
-    const std::string wanted = lower(value);
-    const auto* found = std::find_if(std::begin(kTypes), std::end(kTypes),
-                                     [&](const TypeName& row) { return row.name == wanted; });
-    if (found == std::end(kTypes)) {
-      refuse(wanted == "block" ? ErrorCode::kUnsupported : ErrorCode::kFormat,
+    const auto type = type_named(value);
+    if (!type) {
+      refuse(detail::lower(value) == "block" ? ErrorCode::kUnsupported : ErrorCode::kFormat,
              fmt::format("samples of type '{}' are not read", detail::as_utf8(value)));
     }
-    header_.type = found->type;
+    header_.type = *type;
     typed_ = true;
     return;
   }
   if (name == "encoding") {
-    const std::string wanted = lower(value);
+    const std::string wanted = detail::lower(value);
     encoded_ = true;
     if (wanted == "raw") {
       header_.encoding = Encoding::kRaw;
@@ -288,7 +189,7 @@ void Parser::field(const std::string& name, std::string_view value) {
     return;
   }
   if (name == "endian") {
-    const std::string wanted = lower(value);
+    const std::string wanted = detail::lower(value);
     if (wanted != "little" && wanted != "big") wrong(fmt::format("'{}' is no byte order", value));
     header_.big_endian = wanted == "big";
     endian_said_ = true;
@@ -299,7 +200,7 @@ void Parser::field(const std::string& name, std::string_view value) {
     return;
   }
   if (name == "space") {
-    header_.space = lower(value);
+    header_.space = detail::lower(value);
     return;
   }
   if (name == "datafile") return place_data_file(value);
@@ -426,7 +327,7 @@ Header Parser::parse() {
       continue;
     }
     if (bare == std::string_view::npos) wrong("neither 'field: value' nor 'key:=value'");
-    std::string name = lower(text::trimmed(line.substr(0, bare)));
+    std::string name = detail::lower(text::trimmed(line.substr(0, bare)));
     std::erase(name, ' ');
     field(name, text::trimmed(line.substr(bare + 1)));
     if (name == "datafile" && at_ >= bytes_.size()) break;
@@ -436,17 +337,6 @@ Header Parser::parse() {
 }
 
 }  // namespace
-
-std::string_view name_of(SampleType type) {
-  constexpr std::string_view kNames[] = {"int8",   "uint8", "int16",  "uint16", "int32",
-                                         "uint32", "int64", "uint64", "float",  "double"};
-  return kNames[static_cast<std::size_t>(type)];
-}
-
-std::int64_t size_of(SampleType type) {
-  constexpr std::int64_t kSizes[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
-  return kSizes[static_cast<std::size_t>(type)];
-}
 
 bool looks_like_nrrd(const std::filesystem::path& path) {
   try {

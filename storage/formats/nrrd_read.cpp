@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "storage/base/byte_rate.h"
 #include "storage/base/error.h"
 #include "storage/formats/detail/bytes.h"
 #include "storage/formats/detail/read_only_file.h"
@@ -187,6 +188,7 @@ void NrrdFile::State::unpack(const std::filesystem::path& scratch, const JobCont
   }
   detail::ScratchFile out(scratch, total);
   std::vector<std::byte> buffer(kBuffer);
+  ByteRate rate(total);
   std::int64_t done = 0;
   for (std::size_t n = 0; n < files.size(); ++n) {
     const detail::ReadOnlyFile file(files[n]);
@@ -195,7 +197,7 @@ void NrrdFile::State::unpack(const std::filesystem::path& scratch, const JobCont
     std::int64_t skip = std::max<std::int64_t>(0, header.byte_skip);
     for (std::int64_t left = part; left > 0;) {
       job.report(static_cast<double>(done) / static_cast<double>(total), "unpack",
-                 fmt::format("{} of {} MB", done / 1000000, total / 1000000));
+                 rate.text(done, ByteRate::Clock::now()));
       const std::int64_t wanted = std::min(kBuffer, skip > 0 ? skip : left);
       const auto got =
           static_cast<std::int64_t>(unpacker.next(std::span(buffer).first(static_cast<std::size_t>(wanted))));

@@ -62,6 +62,7 @@ std::vector<std::string> write(const std::filesystem::path& path, std::span<cons
     check(mesh);
     const std::string fault = held(mesh.fault);
     std::vector<const FaceStatistic*> columns;
+    columns.reserve(names.size());
     for (const std::string& name : names) columns.push_back(find(mesh, name));
     for (std::size_t face = 0; face < mesh.triangles.size(); ++face) {
       const survey::WorldPoint p = centroid(mesh, mesh.triangles[face]);

@@ -8,6 +8,7 @@
 
 #include "storage/base/error.h"
 #include "storage/base/text.h"
+#include "storage/formats/detail/letters.h"
 #include "storage/formats/detail/stick_collector.h"
 #include "storage/formats/z_unit.h"
 
@@ -50,12 +51,8 @@ bool has_line_ends(std::string_view text) {
 
 // "Fault_Name" -> "faultname"
 std::string key_of(std::string_view name) {
-  std::string key;
-  for (const char c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
-      key.push_back(static_cast<char>(std::tolower(static_cast<unsigned char>(c))));
-    }
-  }
+  std::string key = detail::lower(name);
+  std::erase_if(key, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
   return key;
 }
 

@@ -4,10 +4,9 @@
 #include <array>
 #include <string>
 
-#include <cctype>
-
 #include "storage/base/error.h"
 #include "storage/base/text.h"
+#include "storage/formats/detail/letters.h"
 
 namespace footwall::formats {
 namespace {
@@ -40,9 +39,7 @@ const Unit& unit_named(std::string_view name) {
 }  // namespace
 
 std::optional<std::string_view> z_unit_from(std::string_view word) {
-  std::string lower;
-  for (const char c : text::trimmed(word))
-    lower.push_back(static_cast<char>(std::tolower(static_cast<unsigned char>(c))));
+  const std::string lower = detail::lower(text::trimmed(word));
   for (const Spelling& spelling : kSpellings) {
     if (spelling.word == lower) return spelling.unit;
   }

@@ -19,7 +19,10 @@ survey::Index strides_of(const survey::Box& box) {
 void reorder(const std::vector<float>& from, const survey::Box& box, const AxisOrder& order,
              std::vector<float>& to) {
   const survey::Index stride = strides_of(box);
-  const auto [slow, middle, fast] = order;
+  // No structured binding: clang refuses one inside a parallel loop.
+  const int slow = order[0];
+  const int middle = order[1];
+  const int fast = order[2];
   const std::int64_t run = box.size(fast);
   const std::int64_t rows = box.size(slow) * box.size(middle);
 #pragma omp parallel for schedule(static) if (box.count() > (1 << 16))

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "storage/base/text.h"
+#include "storage/formats/detail/letters.h"
 
 namespace footwall::formats::segy {
 namespace {
@@ -12,11 +13,8 @@ constexpr int kHeaderBytes = 240;
 
 // The text with letters made small and blanks and control characters left out, for comparing stanza names.
 std::string folded(std::string_view text) {
-  std::string out;
-  for (const char letter : text) {
-    if (static_cast<unsigned char>(letter) > ' ')
-      out.push_back(static_cast<char>(std::tolower(static_cast<unsigned char>(letter))));
-  }
+  std::string out = detail::lower(text);
+  std::erase_if(out, [](char letter) { return static_cast<unsigned char>(letter) <= ' '; });
   return out;
 }
 
