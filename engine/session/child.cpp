@@ -89,7 +89,7 @@ Child::Child(const std::vector<std::string>& command, const std::vector<std::str
   process_ = -1;
   close(output_);
   throw Error(ErrorCode::kEngine, "cannot start " + command[0] + ": " + std::strerror(error),
-              "install Open MPI (packaging/dev setup), or name a launcher in FOOTWALL_LAUNCHER");
+              "install the MPI that Footwall was built with, or name its launcher in FOOTWALL_LAUNCHER");
 }
 
 Child::~Child() {

@@ -57,6 +57,14 @@ std::string offered_plugins() {
   return all;
 }
 
+// The launcher of the MPI library that this was built with: where several are installed, plain "mpirun" may
+// be that of another, under which every rank is a world of its own. On a machine that has it elsewhere, by
+// its name.
+std::string launcher_of_the_library() {
+  const std::filesystem::path built_with = FOOTWALL_MPIEXEC;
+  return access(built_with.c_str(), X_OK) == 0 ? built_with.string() : built_with.filename().string();
+}
+
 // Whether mpirun would start ranks on other hosts, where a folder of ours does not exist.
 bool may_leave_this_host(const Allocation& allocation) {
   if (allocation.slurm) return allocation.nodes > 1;
@@ -70,14 +78,14 @@ Launcher with_mpirun(int ranks, const std::filesystem::path& folder) {
   Launcher launcher;
   const std::string number = std::to_string(ranks);
   if (!kOpenMpi) {
-    launcher.words = {"mpiexec", "-n", number};
+    launcher.words = {launcher_of_the_library(), "-n", number};
     return launcher;
   }
   // Without binding, threads of a rank may use all of its cores. Slots are counted in cores, but a rank may
   // well run on a hardware thread: hence --oversubscribe, always. The single-copy path is the slower one.
   // Ranks that wait give way to others: on a machine that somebody else uses too, two ranks on two cores that
   // do not took four times as long.
-  launcher.words = {"mpirun",
+  launcher.words = {launcher_of_the_library(),
                     "-n",
                     number,
                     "--bind-to",

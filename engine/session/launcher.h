@@ -35,7 +35,8 @@ struct Launcher {
 };
 
 // FOOTWALL_LAUNCHER's words where it is set ("{ranks}" and "{threads}" replaced); in an allocation srun, if
-// it offers pmix or pmi2; else mpirun. `folder`: where MPI may keep session and shared-memory files of this
+// it offers pmix or pmi2; else the mpirun of the MPI library
+// that this was built with. `folder`: where MPI may keep session and shared-memory files of this
 // run, on this host; may be empty. Asks `srun --mpi=list` (at most 10 s). Throws Error kEngine where this
 // process is one of several tasks of a step: each would start a job of its own.
 Launcher choose_launcher(int ranks, int threads, const std::filesystem::path& folder);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <map>
 #include <set>
@@ -122,9 +123,10 @@ void require_room(const std::filesystem::path& folder, std::int64_t bytes) {
   std::error_code trouble;
   const auto space = std::filesystem::space(folder, trouble);
   if (trouble || space.available >= static_cast<std::uintmax_t>(bytes)) return;
+  const auto mib = [](auto amount) { return static_cast<double>(amount) / (1 << 20); };
   throw Error(ErrorCode::kIo,
-              fmt::format("{} has {} MiB free, and {} MiB are needed", folder.string(), space.available >> 20,
-                          bytes >> 20),
+              fmt::format("{} has {:.1f} MiB free, and {:.1f} MiB are needed", folder.string(),
+                          mib(space.available), mib(bytes)),
               "choose another folder, or make room");
 }
 
@@ -141,6 +143,8 @@ Packed pack_project(const project::Project& project, const std::filesystem::path
                 "choose another name, or remove it first");
   }
   PartialFile file(archive);
+  // Tried first, because an error of the project's copy would not tell which of the two folders is at fault.
+  if (!std::ofstream(file.path())) throw io_error("write", archive.string(), errno);
 
   // 1. The project as it is now; all that follows goes by this copy.
   CopiedProject copied(project, folder_of(archive), job.part(0, 0.05));

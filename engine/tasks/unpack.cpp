@@ -204,9 +204,10 @@ Unpacked unpack_project(const std::filesystem::path& archive, const std::filesys
   const auto bytes = std::filesystem::file_size(archive);
   const auto space = std::filesystem::space(folder, trouble);
   if (!trouble && space.available < bytes) {
+    const auto mib = [](auto amount) { return static_cast<double>(amount) / (1 << 20); };
     throw Error(ErrorCode::kIo,
-                fmt::format("{} has {} MiB free, and {} MiB are needed", folder.string(),
-                            space.available >> 20, bytes >> 20),
+                fmt::format("{} has {:.1f} MiB free, and {:.1f} MiB are needed", folder.string(),
+                            mib(space.available), mib(bytes)),
                 "choose another folder, or make room");
   }
   Unpacking unpacking(archive, folder, job);

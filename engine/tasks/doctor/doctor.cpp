@@ -57,6 +57,8 @@ std::vector<Finding> check_folder(const std::filesystem::path& folder, const ses
   const bool usable = checkup.run("file system", [&] {
     std::error_code trouble;
     if (!std::filesystem::is_directory(folder, trouble)) {
+      if (std::filesystem::exists(folder, trouble))
+        return failed(fmt::format("{} is no folder", folder.string()), "name the folder that it lies in");
       return failed(fmt::format("there is no folder {}", folder.string()),
                     "create it, or choose another one");
     }

@@ -19,12 +19,12 @@ bool is_open_mpi(const std::string& name) {
 Finding ranks_finding(const session::EngineFacts& facts, int ranks, double seconds) {
   if (facts.ranks == ranks)
     return ok(fmt::format("{} ranks start, and reach each other ({:.1f} s)", ranks, seconds));
-  return failed(fmt::format("the launcher started {} ranks, and each found itself in a world of {}", ranks,
-                            facts.ranks),
-                fmt::format("the launcher belongs to another MPI than the engine's ({}): put the right "
-                            "mpirun first in PATH, or "
-                            "name the launcher in FOOTWALL_LAUNCHER",
-                            facts.mpi_compiled));
+  return failed(
+      fmt::format("the launcher started {} ranks, and each found itself in a world of {}", ranks,
+                  facts.ranks),
+      fmt::format("the launcher belongs to another MPI than the engine's ({}): name the right one in "
+                  "FOOTWALL_LAUNCHER, e.g. \"mpiexec -n {{ranks}}\" with its path",
+                  facts.mpi_compiled));
 }
 
 Finding mpi_finding(const session::EngineFacts& facts) {

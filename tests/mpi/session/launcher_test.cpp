@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 
+#include "scratch_folder.h"
 #include "storage/base/error.h"
 
 namespace footwall::session {
@@ -40,7 +43,7 @@ TEST_F(LauncherChoice, ThePluginIsFoundInEveryFormOfTheList) {
 
 TEST_F(LauncherChoice, WithoutABatchSystemMpirunKeepsItsFilesInOurFolder) {
   const Launcher launcher = choose_launcher(3, 2, "/dev/shm/ours");
-  EXPECT_EQ(launcher.words.front().substr(0, 3), "mpi");
+  EXPECT_EQ(std::filesystem::path(launcher.words.front()).filename().string().substr(0, 3), "mpi");
   EXPECT_TRUE(has(launcher, "3"));
 #ifdef OPEN_MPI
   EXPECT_TRUE(has(launcher, "/dev/shm/ours"));
@@ -48,6 +51,18 @@ TEST_F(LauncherChoice, WithoutABatchSystemMpirunKeepsItsFilesInOurFolder) {
   setenv("PBS_NODEFILE", "/hosts", 1);
   EXPECT_FALSE(has(choose_launcher(3, 2, "/dev/shm/ours"), "/dev/shm/ours"));
 #endif
+}
+
+TEST_F(LauncherChoice, AnotherMpisLauncherInThePathIsNotTaken) {
+  const ScratchFolder folder;
+  for (const char* name : {"mpirun", "mpiexec"}) {
+    std::ofstream(folder / name) << "#!/bin/sh\n";
+    std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
+  }
+  const std::string before = std::getenv("PATH");
+  setenv("PATH", (folder.path().string() + ":" + before).c_str(), 1);
+  EXPECT_EQ(choose_launcher(2, 1, {}).words.front(), FOOTWALL_MPIEXEC);
+  setenv("PATH", before.c_str(), 1);
 }
 
 TEST_F(LauncherChoice, AnAllocationIsReadAsFarAsItMakesSense) {

@@ -27,6 +27,14 @@ TEST(Folder, OneThatIsNotThereEndsTheChecks) {
   EXPECT_NE(findings[0].what.find("nowhere"), std::string::npos);
 }
 
+TEST(Folder, AFileIsNoFolder) {
+  const ScratchFolder folder;
+  folder.file("project", "");
+  const auto findings = check_folder(folder / "project", {}, {});
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_NE(findings[0].what.find("is no folder"), std::string::npos) << findings[0].what;
+}
+
 TEST(Folder, ACancelLeavesNothing) {
   const ScratchFolder folder;
   JobContext* self = nullptr;

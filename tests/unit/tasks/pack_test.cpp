@@ -62,6 +62,12 @@ class Pack : public ::testing::Test {
   std::filesystem::path elsewhere_ = folder_ / "elsewhere";
 };
 
+TEST_F(Pack, AFolderThatCannotBeWrittenIsNamed) {
+  archive_ = "/proc/p.footwall.tar";  // not even root writes there
+  const Error error = error_of([&] { pack(); });
+  EXPECT_NE(error.message().find("/proc"), std::string::npos) << error.message();
+}
+
 TEST_F(Pack, WhatIsUnpackedElsewhereIsTheSame) {
   const auto before = files_in(folder_.path());
   const Packed packed = pack();
