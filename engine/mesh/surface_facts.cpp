@@ -168,6 +168,51 @@ SurfaceFacts surface_facts(const Surface& surface) {
   return facts;
 }
 
+std::vector<bool> faces_to_turn(const Surface& surface) {
+  check(surface);
+  // 1. What each face sees across its edges.
+  struct Neighbour {
+    std::size_t face;
+    bool turned;
+  };
+  const std::size_t none = surface.triangles.size();
+  std::vector<std::array<Neighbour, 3>> across(surface.triangles.size());
+  for (auto& neighbours : across) neighbours.fill({none, false});
+  for_each_edge(surface.triangles, [&](std::span<const Half> edge) {
+    if (edge.size() != 2) return;
+    const bool turned = !agree(edge);
+    across[edge[0].corner / 3][edge[0].corner % 3] = {edge[1].corner / 3, turned};
+    across[edge[1].corner / 3][edge[1].corner % 3] = {edge[0].corner / 3, turned};
+  });
+  // 2. Piece by piece: every face as the piece's first one sees it.
+  std::vector<bool> turn(surface.triangles.size(), false), seen(surface.triangles.size(), false);
+  std::vector<std::size_t> piece;
+  for (std::size_t first = 0; first < surface.triangles.size(); ++first) {
+    if (seen[first]) continue;
+    piece.assign(1, first);
+    seen[first] = true;
+    bool twisted = false;
+    for (std::size_t n = 0; n < piece.size(); ++n) {
+      for (const Neighbour& neighbour : across[piece[n]]) {
+        if (neighbour.face == none) continue;
+        const bool as_seen = turn[piece[n]] != neighbour.turned;
+        if (seen[neighbour.face]) {
+          twisted = twisted || turn[neighbour.face] != as_seen;
+          continue;
+        }
+        seen[neighbour.face] = true;
+        turn[neighbour.face] = as_seen;
+        piece.push_back(neighbour.face);
+      }
+    }
+    // 3. The fewer ones are turned.
+    const auto others = std::count_if(piece.begin(), piece.end(), [&](std::size_t f) { return turn[f]; });
+    const bool most = 2 * static_cast<std::size_t>(others) > piece.size();
+    for (const std::size_t f : piece) turn[f] = !twisted && turn[f] != most;
+  }
+  return turn;
+}
+
 CutSurface cut_into_manifold(const Surface& surface) {
   check(surface);
   const FaceList& faces = surface.triangles;

@@ -25,6 +25,11 @@ struct SurfaceFacts {
 // Throws Error kFormat if a triangle names a vertex that is not there, or a position it uses is not finite.
 SurfaceFacts surface_facts(const survey::Surface& surface);
 
+// Which faces must be turned (two of their vertices swapped) so that neighbours across an edge of two faces
+// agree: in every piece of faces joined by such edges the fewer ones; where both are as many, those that
+// differ from the piece's first face. A piece that cannot be oriented, as a Moebius strip, stays as it is.
+std::vector<bool> faces_to_turn(const survey::Surface& surface);
+
 // The same faces in the same order, over vertices copied so that the result is manifold and consistently
 // oriented: cut along edges with more than two faces or with two that disagree, and apart at bow-ties. No
 // face is dropped or turned; a degenerate face becomes a piece of its own with three vertices of its own.

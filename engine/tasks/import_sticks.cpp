@@ -84,17 +84,22 @@ Read read(const project::Project& project, const std::filesystem::path& file, co
 }  // namespace
 
 SticksImported import_sticks(project::Project& project, const std::filesystem::path& file,
-                             const std::string& format, const formats::SticksOptions& options) {
+                             const std::string& format, const formats::SticksOptions& options,
+                             const JobContext& job) {
   const Read from_file = read(project, file, format, options);
+  job.report(0.5, "read");
+  job.check();
   project.edit(formats::clean_name("Import " + file.filename().string()),
                [&](project::Interpretation& picks) {
                  std::map<std::string, std::int64_t> ids;
                  for (const formats::Stick& stick : from_file.sticks) {
+                   job.check();
                    const auto [id, is_new] = ids.try_emplace(stick.fault, 0);
                    if (is_new) id->second = picks.add_fault(from_file.names.at(stick.fault));
                    picks.add_pillar(id->second, survey::PillarKind::kInterpreted, stick.points);
                  }
                });
+  job.report(1, "stored");
   return from_file.counts;
 }
 

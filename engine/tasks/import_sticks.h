@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "storage/base/job_context.h"
 #include "storage/formats/sticks.h"
 #include "storage/project/project.h"
 
@@ -34,7 +35,8 @@ struct SticksPreview {
 // the project has already gets a new one, noted in report.renamed. Throws kUsage for a format that is not
 // built, kInvalid for sticks in line numbers where the project has no survey, and what reading throws.
 SticksImported import_sticks(project::Project& project, const std::filesystem::path& file,
-                             const std::string& format, const formats::SticksOptions& options);
+                             const std::string& format, const formats::SticksOptions& options,
+                             const JobContext& job = {});
 
 // The same without changing anything: the first rows, and what the import would report.
 SticksPreview preview_sticks(const project::Project& project, const std::filesystem::path& file,

@@ -1,6 +1,7 @@
 #include "engine/tasks/import_surface.h"
 
 #include <fmt/format.h>
+#include <map>
 #include <set>
 
 #include "engine/tasks/imported_surface.h"
@@ -31,9 +32,11 @@ std::string usable_name(std::string name, const std::string& otherwise) {
   return name.substr(first, name.find_last_not_of(' ') - first + 1);
 }
 
-std::string free_name(const std::string& wanted, const std::set<std::string>& taken) {
+// next: the number to try for each name, so that thousands of equal names do not try them all again.
+std::string free_name(const std::string& wanted, const std::set<std::string>& taken,
+                      std::map<std::string, int>& next) {
   if (!taken.contains(wanted)) return wanted;
-  for (int n = 2;; ++n) {
+  for (int& n = next.try_emplace(wanted, 2).first->second;; ++n) {
     std::string name = fmt::format("{} ({})", wanted, n);
     if (!taken.contains(name)) return name;
   }
@@ -111,12 +114,13 @@ SurfacesImported import_surface(project::Project& project, const std::filesystem
   std::set<std::string> taken;
   for (const project::FaultRecord& fault : project.faults()) taken.insert(fault.name);
   for (const project::SurfaceRecord& surface : project.surfaces()) taken.insert(surface.name);
+  std::map<std::string, int> next;
   std::vector<project::SurfaceUnits> units;
   for (formats::gocad_tsurf::Object& object : read.objects) {
     survey::Surface& surface = object.surface;
     const std::string stated = surface.name;
     const std::string wanted = options.name.empty() ? surface.name : options.name;
-    surface.name = free_name(usable_name(wanted, usable_name(file.stem().string(), "surface")), taken);
+    surface.name = free_name(usable_name(wanted, usable_name(file.stem().string(), "surface")), taken, next);
     taken.insert(surface.name);
     if (surface.name != wanted)
       imported.report.renamed.push_back(fmt::format("{} -> {}", wanted, surface.name));

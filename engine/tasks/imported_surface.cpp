@@ -52,9 +52,18 @@ survey::Surface surface_in_survey(const project::Project& project, const project
   return surface;
 }
 
-project::MeshRecord imported_mesh(const survey::Surface& surface, std::int64_t revision,
+project::MeshRecord imported_mesh(survey::Surface surface, std::int64_t revision,
                                   std::vector<std::string>& notes) {
-  // 1. Cut what no mesh can hold.
+  // 1. Let neighbours agree where they can, and cut what no mesh can hold.
+  const std::vector<bool> turn = mesh::faces_to_turn(surface);
+  if (const auto turned = std::count(turn.begin(), turn.end(), true); turned > 0) {
+    notes.push_back(
+        fmt::format("{}: the windings of neighbouring triangles disagree; {} of {} are turned in the mesh",
+                    surface.name, turned, turn.size()));
+    for (std::size_t f = 0; f < turn.size(); ++f) {
+      if (turn[f]) std::swap(surface.triangles[f][1], surface.triangles[f][2]);
+    }
+  }
   const mesh::CutSurface cut = mesh::cut_into_manifold(surface);
   if (cut.cut_edges > 0 || cut.copied_vertices > 0) {
     notes.push_back(fmt::format("{}: cut along {} edges and apart at vertices, {} vertices copied",

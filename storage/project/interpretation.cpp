@@ -21,13 +21,11 @@ void check_nodes(std::span<const survey::WorldPoint> nodes) {
   for (const survey::WorldPoint& node : nodes) detail::check_position(node);
 }
 
-void check_free(const detail::EditState& state, const std::string& name) {
+void check_free(detail::EditState& state, const std::string& name) {
   detail::check_name("fault", name);
-  for (const FaultRecord& fault : state.faults.all()) {
-    if (fault.name == name) {
-      throw Error(ErrorCode::kInvalid, fmt::format("there is already a fault '{}'", name),
-                  "choose another name");
-    }
+  if (state.fault_names().contains(name)) {
+    throw Error(ErrorCode::kInvalid, fmt::format("there is already a fault '{}'", name),
+                "choose another name");
   }
 }
 
@@ -145,6 +143,7 @@ std::int64_t Interpretation::add_fault(const std::string& name) {
   fault.name = name;
   fault.modified = detail::now_text();
   state_.faults.insert(fault);
+  state_.fault_names().insert(name);
   state_.reshaped(fault.id);
   return fault.id;
 }
@@ -153,15 +152,18 @@ void Interpretation::rename_fault(std::int64_t fault, const std::string& name) {
   FaultRecord record = state_.editable(fault);
   if (record.name == name) return;
   check_free(state_, name);
+  state_.fault_names().erase(record.name);
+  state_.fault_names().insert(name);
   record.name = name;
   state_.faults.update(record);
   state_.touched(fault);
 }
 
 void Interpretation::delete_fault(std::int64_t fault) {
-  state_.editable(fault);
-  if (const auto surface = state_.surfaces.of_fault(fault)) state_.surfaces.remove(surface->id);
+  const FaultRecord record = state_.editable(fault);
+  if (const auto surface = state_.surfaces.of_fault(fault)) delete_surface(surface->id);
   state_.faults.remove(fault);
+  state_.fault_names().erase(record.name);
 }
 
 void Interpretation::set_fault_property(std::int64_t fault, std::string_view property,
@@ -305,12 +307,10 @@ void Interpretation::delete_node(std::int64_t node) {
 }
 
 namespace {
-void check_free_surface(const detail::EditState& state, const std::string& name) {
-  for (const SurfaceRecord& surface : state.surfaces.all()) {
-    if (surface.name == name) {
-      throw Error(ErrorCode::kInvalid, fmt::format("there is already a surface '{}'", name),
-                  "choose another name");
-    }
+void check_free_surface(detail::EditState& state, const std::string& name) {
+  if (state.surface_names().contains(name)) {
+    throw Error(ErrorCode::kInvalid, fmt::format("there is already a surface '{}'", name),
+                "choose another name");
   }
 }
 }  // namespace
@@ -333,6 +333,7 @@ std::int64_t Interpretation::add_surface(const survey::Surface& surface, const s
   record.fault = fault_id;
   record.units = units;
   state_.surfaces.insert(surface, record);
+  state_.surface_names().insert(surface.name);
   return record.id;
 }
 
@@ -342,18 +343,23 @@ std::optional<SurfaceRecord> Interpretation::surface_of(std::int64_t fault) cons
 
 void Interpretation::rename_surface(std::int64_t surface, const std::string& name) {
   state_.require_open();
-  if (state_.surfaces.find(surface).name == name) return;
+  const std::string former = state_.surfaces.find(surface).name;
+  if (former == name) return;
   check_free_surface(state_, name);
   state_.surfaces.rename(surface, name);
+  state_.surface_names().erase(former);
+  state_.surface_names().insert(name);
 }
 
 void Interpretation::delete_surface(std::int64_t surface) {
   state_.require_open();
-  if (const std::int64_t fault = state_.surfaces.find(surface).fault; fault != 0) {
-    state_.editable(fault);
-    state_.reshaped(fault);
+  const SurfaceRecord record = state_.surfaces.find(surface);
+  if (record.fault != 0) {
+    state_.editable(record.fault);
+    state_.reshaped(record.fault);
   }
   state_.surfaces.remove(surface);
+  state_.surface_names().erase(record.name);
 }
 
 }  // namespace footwall::project

@@ -209,13 +209,15 @@ Project Project::open(const std::filesystem::path& path, OpenMode mode, const Op
   database.exec("PRAGMA foreign_keys = ON");
 
   // 3. An older schema.
-  if (state->version < newest) {
-    if (!state->lock) {
+  if (state->version < newest && !state->lock) {
+    if (!detail::show_as_newest(database, state->version, migrations)) {
       throw Error(ErrorCode::kUnsupported,
                   fmt::format("{} has schema version {}, this program reads {}", path.string(),
                               state->version, newest),
-                  "open it once for writing: it is brought up to date after a backup copy");
+                  "any command that changes it (footwall edit PROJECT < /dev/null will do) brings it up to "
+                  "date, after a backup copy beside it");
     }
+  } else if (state->version < newest) {
     const auto backup = detail::migrate(database, state->version, migrations);
     state->notices.emplace_back(fmt::format("brought from schema version {} to {}; the old file is {}",
                                             state->version, newest, backup.string()));

@@ -36,6 +36,9 @@ struct Migration {
   std::string name;
   std::string sql;
   bool ends_history = false;
+  // For a reader, who changes nothing: temporary views that show the older tables as the newer ones; empty
+  // where that cannot be done, and a file so old is then refused to readers.
+  std::string for_readers = {};
 };
 
 struct OpenOptions {

@@ -65,11 +65,11 @@ console::Output preview_sticks(const Options& options) {
   return output;
 }
 
-console::Output import_sticks(const Options& options) {
+console::Output import_sticks(const Options& options, const console::Console& console) {
   if (options.preview) return preview_sticks(options);
   project::Project project = open_project(options.project, project::OpenMode::kWrite);
   const tasks::SticksImported done =
-      tasks::import_sticks(project, options.file, options.format, options.how());
+      tasks::import_sticks(project, options.file, options.format, options.how(), console.job());
   project.close();
   return report(done, "");
 }
@@ -78,8 +78,9 @@ console::Output import_sticks(const Options& options) {
 
 void add_import_sticks(console::Program& program, CLI::App* group) {
   auto sticks = std::make_shared<Options>();
-  CLI::App* command = program.add(group, "sticks", "Import fault sticks",
-                                  [sticks](console::Console&) { return import_sticks(*sticks); });
+  CLI::App* command =
+      program.add(group, "sticks", "Import fault sticks",
+                  [sticks](console::Console& console) { return import_sticks(*sticks, console); });
   std::string formats;
   for (const formats::StickFormat& format : formats::stick_formats())
     formats += std::string(format.name) + ", ";

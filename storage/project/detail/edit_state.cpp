@@ -28,6 +28,22 @@ FaultRecord EditState::editable(std::int64_t fault) const {
   return record;
 }
 
+std::set<std::string>& EditState::fault_names() {
+  if (!fault_names_) {
+    fault_names_.emplace();
+    for (FaultRecord& fault : faults.all()) fault_names_->insert(std::move(fault.name));
+  }
+  return *fault_names_;
+}
+
+std::set<std::string>& EditState::surface_names() {
+  if (!surface_names_) {
+    surface_names_.emplace();
+    for (SurfaceRecord& surface : surfaces.all()) surface_names_->insert(std::move(surface.name));
+  }
+  return *surface_names_;
+}
+
 void EditState::reshaped(std::int64_t fault) {
   touched_.insert(fault);
   reshaped_.insert(fault);

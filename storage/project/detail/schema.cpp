@@ -92,7 +92,9 @@ const Migration kOwnMigrations[] = {
      "ALTER TABLE surface ADD COLUMN fault INTEGER NOT NULL DEFAULT 0;"
      "ALTER TABLE surface ADD COLUMN horizontal_unit TEXT NOT NULL DEFAULT 'm';"
      "ALTER TABLE surface ADD COLUMN vertical_unit TEXT NOT NULL DEFAULT 'm';",
-     false}};
+     false,
+     "CREATE TEMP VIEW surface AS SELECT id, name, kind, vertices, triangles, data, 0 AS fault,"
+     " 'm' AS horizontal_unit, 'm' AS vertical_unit FROM main.surface;"}};
 
 constexpr const char* kUndoTables[] = {"fault", "pillar", "pillar_node", "surface"};
 
@@ -284,6 +286,16 @@ int verify(Database& database, std::span<const Migration> migrations) {
     throw Error(ErrorCode::kCorrupt, fmt::format("{} is damaged: {}", name, state), "restore it from a copy");
   }
   return static_cast<int>(version);
+}
+
+bool show_as_newest(Database& database, int from, std::span<const Migration> migrations) {
+  for (const Migration& migration : migrations) {
+    if (migration.to > from && migration.for_readers.empty()) return false;
+  }
+  for (const Migration& migration : migrations) {
+    if (migration.to > from) database.exec(migration.for_readers);
+  }
+  return true;
 }
 
 std::filesystem::path migrate(Database& database, int from, std::span<const Migration> migrations) {

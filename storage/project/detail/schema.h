@@ -36,6 +36,10 @@ int verify(Database& database, std::span<const Migration> migrations);
 // looked at every few megabytes.
 void back_up(Database& database, const std::filesystem::path& to, const JobContext& job);
 
+// Lets this connection see an older file as the newest version has it, without changing it; false where some
+// migration cannot be shown so.
+bool show_as_newest(Database& database, int from, std::span<const Migration> migrations);
+
 // Copies the file to a backup beside it, then runs the migrations after `from` in one transaction. Returns
 // the backup's path.
 std::filesystem::path migrate(Database& database, int from, std::span<const Migration> migrations);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
 
@@ -86,6 +87,39 @@ TEST(SurfaceFacts, FacesThatDisagree) {
   expect_sound(s, cut_into_manifold(s));
 }
 
+// The surface with the faces turned that are said to disagree.
+Surface oriented(Surface s) {
+  const std::vector<bool> turn = faces_to_turn(s);
+  for (std::size_t f = 0; f < turn.size(); ++f)
+    if (turn[f]) std::swap(s.triangles[f][1], s.triangles[f][2]);
+  return s;
+}
+
+TEST(SurfaceFacts, TheFewerFacesAreTurned) {
+  const auto sheet = testing::sheet(3, 4);
+  Surface s;
+  for (const auto& p : sheet.positions) s.vertices.push_back({p.i, p.j, p.k});
+  s.triangles = sheet.faces;
+  for (const std::size_t f : {0, 3, 4, 11, 20}) std::swap(s.triangles[f][0], s.triangles[f][2]);
+  EXPECT_GT(cut_into_manifold(s).cut_edges, 0);
+  const std::vector<bool> turn = faces_to_turn(s);
+  EXPECT_EQ(std::count(turn.begin(), turn.end(), true), 5);
+  EXPECT_TRUE(turn[0] && turn[3] && turn[4] && turn[11] && turn[20]);
+  EXPECT_EQ(cut_into_manifold(oriented(s)).cut_edges, 0);
+  // As many of both: the first face stays.
+  EXPECT_EQ(faces_to_turn(surface_of(4, {{0, 1, 2}, {0, 1, 3}})), (std::vector<bool>{false, true}));
+}
+
+TEST(SurfaceFacts, OnlyPiecesThatCanBeOrientedAreTurned) {
+  // A sound pair beside a Moebius strip; three faces at an edge say nothing about each other.
+  std::vector<std::array<std::int32_t, 3>> t{{5, 6, 7}, {5, 6, 8}, {9, 10, 11}, {9, 10, 12}, {9, 10, 13}};
+  for (std::int32_t n = 0; n < 5; ++n) t.push_back({n, (n + 1) % 5, (n + 2) % 5});
+  const std::vector<bool> turn = faces_to_turn(surface_of(14, t));
+  EXPECT_EQ(std::count(turn.begin(), turn.end(), true), 1);
+  EXPECT_TRUE(turn[1]);
+  EXPECT_TRUE(faces_to_turn(surface_of(3, {})).empty());
+}
+
 TEST(SurfaceFacts, MoebiusStripIsCutOpen) {
   std::vector<std::array<std::int32_t, 3>> t;
   for (std::int32_t n = 0; n < 5; ++n) t.push_back({n, (n + 1) % 5, (n + 2) % 5});
@@ -129,6 +163,7 @@ TEST(SurfaceFacts, RandomSoupIsAlwaysCutIntoAMesh) {
     }
     const Surface s = surface_of(vertices, t);
     expect_sound(s, cut_into_manifold(s));
+    expect_sound(oriented(s), cut_into_manifold(oriented(s)));
     if (HasFailure()) FAIL() << "round " << round;
   }
 }

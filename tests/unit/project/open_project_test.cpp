@@ -378,11 +378,21 @@ TEST_F(OpenProject, AProjectOfVersionOneGetsSurfacesThatBelongToFaults) {
     auto project = Project::create(path_, {});
     project.edit("import", [&](Interpretation& it) { it.add_surface(surface, "test"); });
     project.edit("remove", [&](Interpretation& it) { it.delete_surface(1); });
+    project.edit("import", [&](Interpretation& it) { it.add_surface(surface, "test"); });
   }
   // As version 1 had it, also in the log: a changeset of a table with fewer columns.
   tamper(
       "ALTER TABLE surface DROP COLUMN vertical_unit; ALTER TABLE surface DROP COLUMN horizontal_unit;"
       "ALTER TABLE surface DROP COLUMN fault; DELETE FROM edit; PRAGMA user_version = 1");
+  {
+    const auto project = Project::open(path_, OpenMode::kRead);
+    EXPECT_EQ(project.schema_version(), 1);
+    ASSERT_EQ(project.surfaces().size(), 1U);
+    EXPECT_EQ(project.surfaces()[0].units, (SurfaceUnits{"m", "m"}));
+    EXPECT_EQ(project.surface(project.surfaces()[0].id).triangles, surface.triangles);
+    EXPECT_FALSE(project.surface_of(1));
+    EXPECT_FALSE(std::filesystem::exists(path_.string() + ".backup-v1"));
+  }
   {
     auto project = Project::open(path_, OpenMode::kWrite);
     EXPECT_EQ(project.schema_version(), 2);
@@ -391,7 +401,7 @@ TEST_F(OpenProject, AProjectOfVersionOneGetsSurfacesThatBelongToFaults) {
     project.edit("import again", [&](Interpretation& it) {
       it.add_surface(surface, "test", it.add_fault("F"), {"ft", "s"});
     });
-    EXPECT_EQ(project.surfaces().at(0).units, (SurfaceUnits{"ft", "s"}));
+    EXPECT_EQ(project.surfaces().at(1).units, (SurfaceUnits{"ft", "s"}));
   }
   EXPECT_TRUE(std::filesystem::exists(path_.string() + ".backup-v1"));
 }

@@ -90,6 +90,20 @@ TEST_F(ImportSurface, TheMeshIsManifoldAndKeepsFacesInOrder) {
   EXPECT_EQ(face_tables(*project_, "F", {}, Coordinates::kIndex).tables[0].vertices.size(), 13u);
 }
 
+TEST_F(ImportSurface, WindingsThatDisagreeAreTurnedInTheMeshAlone) {
+  create(time_survey());
+  const SurfacesImported done = import(
+      "GOCAD TSurf 1\nHEADER {\nname:F\n}\nTFACE\nVRTX 1 1100 2100 -100\nVRTX 2 1200 2100 -120\n"
+      "VRTX 3 1100 2200 -130\nVRTX 4 1200 2200 -140\nTRGL 1 2 3\nTRGL 2 3 4\nEND\n");
+  ASSERT_EQ(done.notices.size(), 1u);
+  EXPECT_NE(done.notices[0].find("1 of 2 are turned"), std::string::npos) << done.notices[0];
+  const auto mesh = project_->mesh(project_->fault("F").id).value();
+  EXPECT_EQ(mesh.vertices.size(), 4u);
+  EXPECT_EQ(mesh.faces[1].vertices, (std::array<std::int32_t, 3>{1, 3, 2}));
+  EXPECT_EQ(face_tables(*project_, "F", {}, Coordinates::kWorld).tables[0].triangles[1],
+            (std::array<std::int32_t, 3>{1, 2, 3}));
+}
+
 TEST_F(ImportSurface, UnitsOfAnotherDomainAreRefusedUnlessOverridden) {
   create(time_survey());
   try {
