@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "storage/base/error.h"
-#include "storage/base/log.h"
 #include "storage/base/hash.h"
 
 namespace footwall::tasks {
@@ -137,9 +136,6 @@ project::VolumeRecord add_volume(project::Project& project, const std::string& n
     record.file = project.relative_file(path);
     if (!survey) project.set_survey(source.geometry, source.provenance_json);
     record.id = project.add_volume(record);
-    if (source.notes_after_reading) {
-      for (const std::string& note : source.notes_after_reading()) log::warn(note);
-    }
     return record;
   } catch (...) {
     fs::remove(path, failure);  // not listed, so not kept

@@ -22,11 +22,11 @@ struct VolumeSource {
   std::string text;                    // in words, e.g. "SEG-Y f3.sgy"
   std::string provenance_json = "{}";  // how it was made
   // What only reading the samples can tell, in words, e.g. how many did not fit into a float32; may be empty.
+  // For the caller, who tells the user once the volume is in.
   std::function<std::vector<std::string>()> notes_after_reading;
 };
 
 // The first volume gives a project without a survey its survey; later ones must lie on its grid.
-// Notes after reading go to the log as warnings.
 // Throws kInvalid with the numbers where they do not, or where the name is taken; and what writing throws.
 project::VolumeRecord add_volume(project::Project& project, const std::string& name,
                                  const VolumeSource& source, const JobContext& job);

@@ -26,14 +26,14 @@ SegyImport segy_source(const std::filesystem::path& path, const formats::segy::O
           .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   import.source.fill = [file](const survey::Box& box, std::span<float> values, std::span<std::uint8_t> live) {
     file->read_block(box, values, live);
-  };
-  import.source.notes_after_reading = [file]() -> std::vector<std::string> {
-    if (file->overflowed() == 0) return {};
-    return {fmt::format("{} samples are beyond what a float32 holds and were set to its largest value",
-                        file->overflowed())};
-  };
+};
+import.source.notes_after_reading = [file]()->std::vector<std::string> {
+  if (file->overflowed() == 0) return {};
+return {fmt::format("{} samples are beyond what a float32 holds and were set to its largest value",
+                    file->overflowed())};
+};  // namespace footwall::tasks
 return import;
-}  // namespace footwall::tasks
+}
 
 VolumeSource raw_source(const std::filesystem::path& path, const RawOptions& options,
                         const survey::Geometry& geometry) {

@@ -54,6 +54,7 @@ struct Header {
   Encoding encoding = Encoding::kRaw;
   bool big_endian = false;
   std::array<Axis, 3> axes;
+  bool is_section = false;  // two axes in the file; the third was added
   std::string content;
   std::string space;
   std::vector<std::string> space_units;

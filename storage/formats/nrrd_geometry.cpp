@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "storage/base/error.h"
 #include "storage/base/text.h"
@@ -144,8 +145,8 @@ class Placing {
       const auto parts = text::words(kept);
       const auto first = parts.size() == 2 ? text::integer(parts[0]) : std::nullopt;
       const auto step = parts.size() == 2 ? text::integer(parts[1]) : std::nullopt;
-      constexpr std::int64_t kMost = 2000000000;
-      if (!first || !step || *step < 1 || *step > kMost || *first < -kMost || *first > kMost) {
+      constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+      if (!first || !step || *step < 1 || *step > kMost || *first < -kMost - 1 || *first > kMost) {
         assume(fmt::format("{} are numbered from 1", name));
         return;
       }

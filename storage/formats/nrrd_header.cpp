@@ -271,7 +271,8 @@ void Parser::reduce_to_three() {
     header_.notes.emplace_back("an axis of one sample is left out");
   }
   if (axes.size() < 2) wrong("a volume needs at least two axes");
-  if (axes.size() == 2) axes.push_back({1, kUnstated, kUnstated, "", {}});
+  header_.is_section = axes.size() == 2;
+  if (header_.is_section) axes.push_back({1, kUnstated, kUnstated, "", {}});
   std::copy(axes.begin(), axes.end(), header_.axes.begin());
   std::int64_t bytes = size_of(header_.type);
   for (const Axis& axis : header_.axes) {
@@ -370,7 +371,7 @@ Header read_header(const std::filesystem::path& path) {
 }
 
 raw::AxisOrder default_order(const Header& header) {
-  return header.axes[2].size == 1 ? raw::AxisOrder{0, 2, 1} : raw::AxisOrder{2, 1, 0};
+  return header.is_section ? raw::AxisOrder{0, 2, 1} : raw::AxisOrder{2, 1, 0};
 }
 
 }  // namespace footwall::formats::nrrd

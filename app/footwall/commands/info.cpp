@@ -1,5 +1,8 @@
 // footwall info: what is in a project, a SEG-Y or an NRRD file, and whether it is whole.
 #include <fmt/format.h>
+
+#include <cctype>
+#include <filesystem>
 #include <memory>
 
 #include "app/footwall/commands/commands.h"
@@ -79,9 +82,16 @@ std::string facts_text(const console::Json& facts) {
   return text;
 }
 
+// One that is too damaged to be recognised is reported as SEG-Y all the same, with the reason.
+bool is_called_segy(const std::string& file) {
+  std::string ending = std::filesystem::path(file).extension().string();
+  for (char& letter : ending) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return ending == ".sgy" || ending == ".segy";
+}
+
 console::Output run(const Options& options, const console::Console& console) {
   if (formats::nrrd::looks_like_nrrd(options.file)) return nrrd_info(options.file);
-  if (formats::segy::looks_like_segy(options.file)) {
+  if (is_called_segy(options.file) || formats::segy::looks_like_segy(options.file)) {
     return segy_info(options.file, options.segy, console);
   }
   const project::Project project = open_project(options.file, project::OpenMode::kRead);

@@ -15,6 +15,11 @@ Error wrong(const std::string& option, const std::string& text, const std::strin
   return {ErrorCode::kUsage, fmt::format("{} '{}' cannot be read", option, text), "write it as " + form};
 }
 
+[[noreturn]] void differs(const std::string& option, const std::string& given, const std::string& has) {
+  throw Error(ErrorCode::kInvalid, fmt::format("{} {}, the project's survey has {}", option, given, has),
+              "leave the option out, or import into a project of its own");
+}
+
 }  // namespace
 
 std::array<std::int64_t, 3> dims_from(const std::string& text, const std::string& option) {
@@ -138,18 +143,18 @@ tasks::NrrdOptions VolumeOptions::nrrd() const {
 }
 
 void VolumeOptions::agree_with(const survey::Geometry& survey) const {
-  const auto differs = [](const std::string& option, const std::string& given, const std::string& has) {
-    throw Error(ErrorCode::kInvalid, fmt::format("{} {}, the project's survey has {}", option, given, has),
-                "leave the option out, or import into a project of its own");
-  };
+  agree_but_for_interval(survey);
+  if (interval && !(std::abs(*interval - survey.interval) <= 1e-9 * survey.interval)) {
+    differs("--interval", fmt::format("{}", *interval), fmt::format("{}", survey.interval));
+  }
+}
+
+void VolumeOptions::agree_but_for_interval(const survey::Geometry& survey) const {
   if (domain && survey::domain_from(*domain) != survey.domain) {
     differs("--domain", *domain, std::string(name_of(survey.domain)));
   }
   if (vertical_unit && survey::vertical_unit_from(*vertical_unit) != survey.vertical_unit) {
     differs("--vertical-unit", *vertical_unit, std::string(name_of(survey.vertical_unit)));
-  }
-  if (interval && !(std::abs(*interval - survey.interval) <= 1e-9 * survey.interval)) {
-    differs("--interval", fmt::format("{}", *interval), fmt::format("{}", survey.interval));
   }
   if (!crs.empty() && !survey.crs.empty() && crs != survey.crs) differs("--crs", crs, survey.crs);
 }

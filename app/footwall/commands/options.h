@@ -39,6 +39,8 @@ struct VolumeOptions {
   survey::Geometry raw_geometry() const;
   // Throws kInvalid with both where what was given is not the survey's: it is not overridden by a volume.
   void agree_with(const survey::Geometry& survey) const;
+  // The same without the interval, which of a SEG-Y file may be wrong, or another one that is resampled.
+  void agree_but_for_interval(const survey::Geometry& survey) const;
 
  private:
   survey::Domain required_domain() const;

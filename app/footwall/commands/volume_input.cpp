@@ -29,6 +29,7 @@ VolumeInput volume_input(const std::filesystem::path& file, VolumeKind kind, con
   VolumeInput input;
   switch (kind) {
     case VolumeKind::kSegy: {
+      if (survey) options.agree_but_for_interval(*survey);
       tasks::SegyImport import = tasks::segy_source(file, options.segy(), job);
       input.source = std::move(import.source);
       input.warnings = import.report.warnings;
@@ -61,14 +62,18 @@ console::Output volume_output(const project::VolumeRecord& volume, const VolumeI
   output.json["live_traces"] = volume.live_traces;
   output.json["null_count"] = volume.null_count;
   output.json["checksum"] = volume.checksum;
-  output.json["warnings"] = input.warnings;
+  std::vector<std::string> warnings = input.warnings;
+  if (input.source.notes_after_reading) {
+    for (std::string& note : input.source.notes_after_reading()) warnings.push_back(std::move(note));
+  }
+  output.json["warnings"] = warnings;
   output.text = fmt::format(
       "volume {}: {} inlines x {} crosslines x {} samples, {}, {} live traces\n", volume.name, volume.dims[0],
       volume.dims[1], volume.dims[2],
       any ? fmt::format("amplitudes {:.6g} to {:.6g}", volume.min, volume.max) : "every sample null",
       volume.live_traces);
   output.text += report_text(report);
-  for (const std::string& warning : input.warnings) log::warn(warning);
+  for (const std::string& warning : warnings) log::warn(warning);
   return output;
 }
 

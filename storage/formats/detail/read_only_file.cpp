@@ -28,7 +28,8 @@ ReadOnlyFile::ReadOnlyFile(std::filesystem::path path) : path_(std::move(path)) 
     const int failure = errno;
     ::close(descriptor_);
     if (!known) throw io_error("read", path_, failure);
-    throw Error(ErrorCode::kFormat, fmt::format("{} is not a file", path_.string()));
+    throw Error(ErrorCode::kFormat, fmt::format("{} is not a file", path_.string()),
+                "name the file itself: folders, pipes and devices are not read");
   }
   size_ = status.st_size;
   // By way of the open descriptor, so that it is the same file even if another has taken its name.

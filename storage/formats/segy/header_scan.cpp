@@ -30,11 +30,16 @@ class ReadingWay {
  public:
   detail::PageBuffer::Way way() const { return way_; }
   void through_cache() { way_ = detail::PageBuffer::Way::kThroughCache; }
-  void after(std::int64_t bytes, std::chrono::duration<double> spent) {
-    if (bytes >= kTried && static_cast<double>(bytes) < kFastDisk * spent.count()) through_cache();
+  // `waited` for this read alone: a machine that is busy elsewhere does not make its disk slow.
+  void after_read(std::int64_t bytes, std::chrono::duration<double> waited) {
+    read_ += bytes;
+    waited_ += waited;
+    if (read_ >= kTried && static_cast<double>(read_) < kFastDisk * waited_.count()) through_cache();
   }
 
  private:
+  std::int64_t read_ = 0;
+  std::chrono::duration<double> waited_{0};
   detail::PageBuffer::Way way_ = detail::PageBuffer::Way::kPastCache;
 };
 
@@ -45,8 +50,7 @@ void read_all(const detail::ReadOnlyFile& file, const Layout& layout, const JobC
               const OnHeader& on_header, const InRows& in_rows) {
   const std::int64_t per_read = std::max<std::int64_t>(1, kPieceBytes / layout.trace_size);
   const std::int64_t total = layout.traces * layout.trace_size;
-  const auto start = std::chrono::steady_clock::now();
-  ByteRate rate(total, start);
+  ByteRate rate(total);
   const auto header_bytes = static_cast<std::size_t>(layout.header_bytes());
   ReadingWay way;
   detail::PageBuffer piece;
@@ -55,10 +59,11 @@ void read_all(const detail::ReadOnlyFile& file, const Layout& layout, const JobC
     const std::int64_t done = first * layout.trace_size;
     const auto now = std::chrono::steady_clock::now();
     job.report(static_cast<double>(done) / static_cast<double>(total), kPhase, rate.text(done, now));
-    way.after(done, now - start);
     if (first == per_read && !in_rows()) way.through_cache();
     const std::int64_t count = std::min(per_read, layout.traces - first);
+    const auto asked = std::chrono::steady_clock::now();
     piece.read(file, layout.offset_of(first), count * layout.trace_size, way.way());
+    way.after_read(count * layout.trace_size, std::chrono::steady_clock::now() - asked);
     for (std::int64_t n = first; n < first + count; ++n) {
       on_header(n, Header(piece.at(layout.offset_of(n)), header_bytes));
     }

@@ -116,12 +116,24 @@ std::int64_t extended_blocks(const Head& head, bool swap, std::int64_t trace_siz
     report.warnings.push_back(fmt::format("{} extended text headers: none are read", count));
     return 0;
   }
-  std::array<std::byte, kTextHeaderSize> block;
+  std::array<std::byte, kTextHeaderSize> block{};
   for (std::int64_t n = 0; n < kMostTextBlocks && kHeadSize + (n + 1) * kBlock <= file.size(); ++n) {
     file.read_at(kHeadSize + n * kBlock, block);
     if (is_end_stanza(block)) return n + 1;
   }
-  refuse(file, "its extended text headers have no end: no stanza ((SEG: EndText)) was found");
+  file.read_at(kHeadSize,
+               std::span(block).first(static_cast<std::size_t>(std::min(kBlock, file.size() - kHeadSize))));
+  const bool stanza = decoded(block[0], is_ebcdic(block)) == '(';
+  if (!stanza && remainder(file, kHeadSize, trace_size) == 0) {
+    report.warnings.emplace_back(
+        "the binary header announces extended text headers, but there is no stanza ((SEG: EndText)): none "
+        "are read");
+    return 0;
+  }
+  refuse(
+      file, "its extended text headers have no end: no stanza ((SEG: EndText)) was found",
+      "the file is cut short, or bytes 3505-3506 of the binary header are wrong: put the number of extended "
+      "headers there");
 }
 
 void read_texts(const Head& head, std::int64_t blocks, const detail::ReadOnlyFile& file, Layout& layout,
@@ -192,8 +204,11 @@ double stated_interval(const Head& head, bool swap, bool revision2, Report& repo
     if (std::isfinite(precise) && precise > 0) return precise;
   }
   const int interval = head.at<std::int16_t>(3217, swap);
-  if (interval < 0)
-    report.warnings.push_back(fmt::format("the binary header's sample interval is {}", interval));
+  if (interval < 0) {
+    report.warnings.push_back(
+        fmt::format("the binary header's sample interval is {}, or {} as a word without sign", interval,
+                    interval + 65536));
+  }
   return std::max(interval, 0);
 }
 
@@ -228,7 +243,8 @@ void count_traces(const Head& head, bool revision2, const detail::ReadOnlyFile& 
 
 Layout read_layout(const detail::ReadOnlyFile& file, const Options& options, Report& report) {
   if (file.size() < kHeadSize) {
-    refuse(file, fmt::format("{} bytes are too few for SEG-Y's headers", file.size()));
+    refuse(file, fmt::format("{} bytes are too few for SEG-Y's headers", file.size()),
+           "it is no SEG-Y, or its transfer broke off: copy it again");
   }
   const Head head(file);
   Layout layout;

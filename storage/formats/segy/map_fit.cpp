@@ -82,13 +82,16 @@ MapFit fit_map(const Moments& m) {
   return fit;
 }
 
+double bin_of(const MapFit& fit) {
+  const double along_u = std::hypot(fit.per_u_x, fit.per_u_y);
+  const double along_v = std::hypot(fit.per_v_x, fit.per_v_y);
+  return along_u > 0 && along_v > 0 ? std::min(along_u, along_v) : std::max(along_u, along_v);
+}
+
 double misfit_in_bins(const MapFit& fit) {
   if (fit.kind == MapFit::Kind::kUnusable) return std::numeric_limits<double>::quiet_NaN();
   if (fit.kind == MapFit::Kind::kPoint) return 0;
-  const double along_u = std::hypot(fit.per_u_x, fit.per_u_y);
-  const double along_v = std::hypot(fit.per_v_x, fit.per_v_y);
-  const double bin = along_u > 0 && along_v > 0 ? std::min(along_u, along_v) : std::max(along_u, along_v);
-  return fit.residual / bin;
+  return fit.residual / bin_of(fit);
 }
 
 }  // namespace footwall::formats::segy

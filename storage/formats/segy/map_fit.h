@@ -33,7 +33,10 @@ struct MapFit {
 
 MapFit fit_map(const Moments& moments);
 
-// The residual as a share of the shorter distance between neighbouring line numbers; 0 for one position, NaN
+// The shorter distance between neighbouring line numbers; 0 for one position.
+double bin_of(const MapFit& fit);
+
+// The residual as a share of bin_of(); 0 for one position, NaN
 // for an unusable fit.
 double misfit_in_bins(const MapFit& fit);
 

@@ -1,8 +1,9 @@
 // SEG-Y in: one pass over the trace headers makes the survey's geometry and an index, then blocks of samples
 // are pulled through the index, so that any trace order works and memory stays bounded: 24 bytes a trace
-// while scanning, 16 afterwards, + buffers. Based on: SEG Technical Standards, SEG-Y revisions 0, 1, 2.0
-// and 2.1; differs where real files differ (byte order of old revisions, header words that contradict each
-// other, gaps, doubled traces).
+// while scanning (28 for a while where line numbers are suspect), 16 afterwards, and buffers of at most 48
+// MiB or one run of traces. Based on: SEG Technical Standards, SEG-Y revisions 0, 1, 2.0 and 2.1; differs
+// where real files differ (byte order of old revisions, header words that contradict each other, gaps,
+// doubled traces).
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -119,8 +120,9 @@ class SegyFile {
 
   // values: box.count() floats, [inline][crossline][sample]; NaN where there is no live trace.
   // live: one byte for each trace of the box, [inline][crossline], 1 = live.
-  // May be called from several threads at once. Throws kInternal for a box outside the survey or spans of
-  // another size, kIo, kCorrupt if the file has shrunk since the scan.
+  // May be called from several threads; they take turns, since windows of the file are shared. Throws
+  // kInternal for a box outside the survey or spans of another size, kIo, kCorrupt if the file has shrunk
+  // since the scan.
   void read_block(const survey::Box& box, std::span<float> values, std::span<std::uint8_t> live) const;
 
   // Samples read so far that do not fit into a float32 and became +-FLT_MAX; counted at each reading.

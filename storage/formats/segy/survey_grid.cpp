@@ -9,6 +9,7 @@
 
 #include "storage/base/error.h"
 #include "storage/formats/segy/line_steps.h"
+#include "storage/formats/segy/stray_positions.h"
 
 namespace footwall::formats::segy {
 namespace {
@@ -192,7 +193,8 @@ void set_local_grid(const std::string& why, survey::Geometry& geometry) {
 }
 
 // Of live traces with coordinates, from the map; `scan` keeps where they are relative to the first one.
-double largest_distance(const HeaderScan& scan, const survey::Geometry& geometry) {
+// Those beyond `farthest` do not count.
+double largest_distance(const HeaderScan& scan, const survey::Geometry& geometry, double farthest) {
   const survey::MapView& map = geometry.map;
   double largest = 0;
   for (const IndexEntry& entry : scan.index.entries()) {
@@ -202,8 +204,8 @@ double largest_distance(const HeaderScan& scan, const survey::Geometry& geometry
     const auto j = static_cast<double>(geometry.crosslines.index_of(entry.crossline_number));
     const double x = map.origin_x - scan.positions.x0 + map.per_inline_x * i + map.per_crossline_x * j;
     const double y = map.origin_y - scan.positions.y0 + map.per_inline_y * i + map.per_crossline_y * j;
-    largest =
-        std::max(largest, std::hypot(x - static_cast<double>(offset.x), y - static_cast<double>(offset.y)));
+    const double distance = std::hypot(x - static_cast<double>(offset.x), y - static_cast<double>(offset.y));
+    if (distance <= farthest) largest = std::max(largest, distance);
   }
   return largest;
 }
@@ -234,7 +236,18 @@ void set_map(const HeaderScan& scan, survey::Geometry& geometry, Report& report)
   if (coordinates_are_angles(scan, report)) {
     return set_local_grid("X and Y are angles, which are not read", geometry);
   }
-  const MapFit fit = fit_map(scan.positions);
+  MapFit fit = fit_map(scan.positions);
+  double farthest = std::numeric_limits<double>::infinity();
+  if (!(misfit_in_bins(fit) <= 0.1)) {
+    if (const auto without = fit_without_strays(scan, fit)) {
+      fit = without->fit;
+      farthest = without->farthest;
+      report.warnings.push_back(fmt::format(
+          "the coordinates of {} traces lie far off the grid of all others and are left out of the fit of "
+          "the map",
+          without->left_out));
+    }
+  }
   if (fit.kind == MapFit::Kind::kUnusable) {
     return set_local_grid("the X and Y coordinates do not spread as the lines do", geometry);
   }
@@ -272,7 +285,7 @@ void set_map(const HeaderScan& scan, survey::Geometry& geometry, Report& report)
   map.origin_x = fit.origin_x + fit.per_u_x * to_first_u + fit.per_v_x * to_first_v;
   map.origin_y = fit.origin_y + fit.per_u_y * to_first_u + fit.per_v_y * to_first_v;
   report.residual = fit.residual;
-  report.largest_residual = largest_distance(scan, geometry);
+  report.largest_residual = largest_distance(scan, geometry, farthest);
   const double bin = std::min(std::hypot(map.per_inline_x, map.per_inline_y),
                               std::hypot(map.per_crossline_x, map.per_crossline_y));
   check_zeros(scan, fit, bin, report);
@@ -308,13 +321,17 @@ void set_interval(const Layout& layout, const Options& options, const HeaderScan
   }
 }
 
-void check_interval(const HeaderScan& scan, const survey::Geometry& geometry) {
+void check_interval(const HeaderScan& scan, const Report& report, const survey::Geometry& geometry) {
   if (geometry.interval > 0 && std::isfinite(geometry.interval)) return;
+  const auto about = std::find_if(report.warnings.begin(), report.warnings.end(), [](const std::string& one) {
+    return one.starts_with("the binary header's sample interval");
+  });
+  const std::string binary = about == report.warnings.end() ? "" : ": " + *about;
   throw Error(ErrorCode::kFormat,
               scan.interval_us.stated && scan.interval_us.value < 0
                   ? fmt::format("no header has a usable sample interval (the traces say {} us)",
                                 scan.interval_us.value)
-                  : "the headers have no usable sample interval",
+                  : "the headers have no usable sample interval" + binary,
               "give it with --interval, in the vertical unit");
 }
 
@@ -343,7 +360,7 @@ void set_samples(const Layout& layout, const Options& options, const HeaderScan&
     report.warnings.push_back(fmt::format("trace headers say other numbers of samples ({}) than is used ({})",
                                           other, layout.samples));
   }
-  check_interval(scan, geometry);
+  check_interval(scan, report, geometry);
 }
 
 }  // namespace

@@ -86,6 +86,40 @@ class Segy(FootwallTest):
         done = self.start("new", "d.footwall", "--segy", file, "--domain", "time", "--vertical-unit", "ms")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("84 samples are beyond what a float32 holds", done.stderr)
+        again = self.footwall("import", "volume", "d.footwall", file, "--domain", "time", "--vertical-unit", "ms",
+                              "--name", "again")
+        self.assertIn("84 samples are beyond what a float32 holds", again["warnings"][-1])
+
+    def test_options_that_contradict_the_survey_are_refused(self):
+        file = self.write("c.sgy", segy(grid((189, 193, 181, 185))))
+        self.imported(file, "--crs", "EPSG:23031")
+        more = ("import", "volume", "c.sgy.footwall", file, "--name", "again", "--domain", "time", "--vertical-unit", "ms")
+        error = self.refused(1, *more, "--crs", "EPSG:32631")
+        self.assertIn("EPSG:23031", error["message"])
+        self.footwall(*more, "--crs", "EPSG:23031")
+
+    def test_files_too_damaged_to_be_recognised_are_reported_by_their_name(self):
+        traces = grid((189, 193, 181, 185))
+        for content in (b"", b"x" * 100, bytes(100000), segy(traces, code=99)):
+            facts = self.footwall("info", self.write("BAD.SGY", content))
+            for key in CONTRACT:
+                self.assertIn(key, facts)
+            self.assertFalse(facts["importable"])
+            self.assertTrue(facts["reason"] and facts["hint"])
+
+    def test_wild_coordinates_of_one_trace_do_not_move_the_map(self):
+        traces = grid((189, 193, 181, 185))
+        good = self.footwall("info", self.imported(self.write("w.sgy", segy(traces))) and "w.sgy.footwall")["survey"]["map"]
+        for n, (x, y) in enumerate(((2000000000, 5), (400000, 60000000), (400500, 6000000))):
+            wild = [dict(trace) for trace in traces]
+            wild[17 + n].update({181: x, 185: y})
+            report = self.imported(self.write(f"w{n}.sgy", segy(wild)))
+            self.assertIn("coordinates of 1 traces lie far off", report["warnings"][0])
+            bad = self.footwall("info", f"w{n}.sgy.footwall")["survey"]["map"]
+            for key in good:
+                for a, b in zip(good[key], bad[key]):
+                    self.assertAlmostEqual(a, b, places=1)
+            self.assertEqual(report["live_traces"], 42)
 
     def test_an_interval_must_be_given_where_headers_have_none(self):
         file = self.write("i.sgy", segy(grid((189, 193, 181, 185)), interval=-2))

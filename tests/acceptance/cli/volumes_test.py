@@ -47,6 +47,16 @@ class Volumes(FootwallTest):
         self.assertTrue(any("numbered from 1" in line for line in report["assumed"]))
         self.assertEqual(report["warnings"], [])
 
+    def test_one_time_slice_comes_back_from_nrrd_as_one(self):
+        self.project("s.footwall", "--z", "8")
+        before = self.footwall("info", "s.footwall")
+        self.footwall("export", "s.footwall", "--nrrd", "s.nrrd")
+        self.footwall("new", "t.footwall", "--nrrd", "s.nrrd")
+        after = self.footwall("info", "t.footwall")
+        self.assertEqual(after["volumes"][0]["checksum"], before["volumes"][0]["checksum"])
+        for key in ("inlines", "crosslines", "samples", "interval", "z0", "map"):
+            self.assertEqual(after["survey"][key], before["survey"][key])
+
     def test_crop_takes_line_numbers_and_z(self):
         report = self.project("c.footwall", "--inlines", "2:6:2", "--crosslines", "3:99", "--z", "8:20")
         self.assertEqual(report["dims"], [3, 3, 4])

@@ -290,9 +290,30 @@ TEST(SegyGeometry, DepthAndFeet) {
 TEST(SegyGeometry, AnIrregularGridIsReported) {
   SampleSegy made = SampleSegy::grid(4, 4, 2);
   made.traces[7].x += 400;
+  made.traces[2].y -= 300;
+  made.traces[12].x -= 500;
   const SegyFile file = scan(made);
   EXPECT_GT(file.report().residual, 10);
   EXPECT_TRUE(mentions(file.report().warnings, "off a regular grid"));
+}
+
+TEST(SegyGeometry, AFewWildCoordinatesDoNotMoveTheMap) {
+  const SampleSegy good = SampleSegy::grid(12, 10, 2);
+  const survey::MapView expected = scan(good).geometry().map;
+  for (const std::size_t trace : {1u, 57u, 119u}) {
+    for (const std::int32_t wild : {2000000000, -60000, 1500}) {
+      SampleSegy made = good;
+      made.traces[trace].x += wild;
+      made.traces[40].y -= wild / 2;
+      const SegyFile file = scan(made);
+      EXPECT_TRUE(mentions(file.report().warnings, "coordinates of 2 traces lie far off"));
+      EXPECT_EQ(file.report().live_traces, 120);
+      EXPECT_NEAR(file.geometry().map.origin_x, expected.origin_x, 1e-3);
+      EXPECT_NEAR(file.geometry().map.per_inline_x, expected.per_inline_x, 1e-4);
+      EXPECT_NEAR(file.geometry().map.per_crossline_y, expected.per_crossline_y, 1e-4);
+      EXPECT_LT(file.report().largest_residual, 1e-2);
+    }
+  }
 }
 
 TEST(SegyGeometry, OverflowsAreCountedWhileReading) {

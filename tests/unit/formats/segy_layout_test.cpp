@@ -107,6 +107,17 @@ TEST(SegyLayout, ExtendedTextHeadersByCountAndByEndStanza) {
   EXPECT_EQ(code_of_scan(folder.file("c.sgy", made.bytes())), ErrorCode::kFormat);
 }
 
+TEST(SegyLayout, ExtendedHeadersThatAreAnnouncedButNotThereAreIgnored) {
+  const ScratchFolder folder;
+  SampleSegy made = SampleSegy::grid(2, 2, 4);
+  made.binary[3505] = made.half(-1);
+  const SegyFile file = SegyFile::scan(folder.file("a.sgy", made.bytes()), {});
+  EXPECT_EQ(file.report().traces, 4);
+  EXPECT_EQ(all_samples(file)[15], 113.0f);
+  ASSERT_EQ(file.report().warnings.size(), 1u);
+  EXPECT_NE(file.report().warnings[0].find("no stanza"), std::string::npos);
+}
+
 TEST(SegyLayout, ATruncatedFileGivesItsWholeTracesAndSaysSo) {
   const ScratchFolder folder;
   const std::string whole = SampleSegy::grid(3, 3, 20).bytes();
