@@ -88,18 +88,22 @@ SticksImported import_sticks(project::Project& project, const std::filesystem::p
                              const JobContext& job) {
   const Read from_file = read(project, file, format, options);
   job.report(0.5, "read");
-  job.check();
   project.edit(formats::clean_name("Import " + file.filename().string()),
                [&](project::Interpretation& picks) {
                  std::map<std::string, std::int64_t> ids;
+                 const std::size_t total = from_file.sticks.size();
+                 std::size_t stored = 0;
                  for (const formats::Stick& stick : from_file.sticks) {
+                   if (++stored % 256 == 0) {
+                     job.report(0.5 + 0.5 * static_cast<double>(stored) / static_cast<double>(total), "store",
+                                fmt::format("{} of {} sticks", stored, total));
+                   }
                    job.check();
                    const auto [id, is_new] = ids.try_emplace(stick.fault, 0);
                    if (is_new) id->second = picks.add_fault(from_file.names.at(stick.fault));
                    picks.add_pillar(id->second, survey::PillarKind::kInterpreted, stick.points);
                  }
                });
-  job.report(1, "stored");
   return from_file.counts;
 }
 

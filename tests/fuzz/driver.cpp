@@ -1,10 +1,11 @@
 // main() of every fuzz target: reads the originals, then feeds damaged copies of them to the target.
 //   fuzz_NAME [--rounds N] [--seed S] [--only ROUND]
-// Ends with 1 where a round crashes, hangs (20 s), throws anything but footwall::Error, breaks a promise, or
-// where memory grows by more than 256 MiB after the first tenth of the rounds. The input that did it is
-// written to fuzz-failure.bin in the working folder.
+// Ends with 1 where a round crashes, hangs (20 s of the processor), throws anything but footwall::Error,
+// breaks a promise, or where memory grows by more than 256 MiB after the first tenth of the rounds. The input
+// that did it is written to fuzz-failure.bin in the working folder.
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -25,9 +26,11 @@ extern "C" void __sanitizer_set_death_callback(void (*callback)()) __attribute__
 namespace footwall::fuzz {
 namespace {
 
-constexpr unsigned kHangSeconds = 20;
+constexpr int kBusySeconds = 20;  // of the processor: a machine may be busy, and a run be stopped for a while
+constexpr unsigned kHangSeconds = 600;  // of the clock, for rounds that wait
 constexpr std::uintmax_t kLargestOriginal = 32 << 10;
 constexpr std::int64_t kGrowthMiB = 256;
+constexpr std::uint64_t kToldEvery = 50'000;
 
 struct Arguments {
   std::uint64_t rounds = 2000;
@@ -56,7 +59,7 @@ void on_signal(int number) {
   constexpr std::string_view kText =
       "fuzz: a round hangs or died of a signal; its input is in fuzz-failure.bin\n";
   [[maybe_unused]] const ssize_t n = ::write(STDERR_FILENO, kText.data(), kText.size());
-  ::_exit(number == SIGALRM ? 1 : 128 + number);
+  ::_exit(number == SIGALRM || number == SIGPROF ? 1 : 128 + number);
 }
 
 std::int64_t resident_mib() {
@@ -101,10 +104,17 @@ std::vector<std::string> originals_of(const Target& target) {
   return originals;
 }
 
+// Ends the program where a round takes longer; 0 to stop watching.
+void watch(int busy_seconds, unsigned hang_seconds) {
+  const itimerval limit{{0, 0}, {busy_seconds, 0}};
+  require(::setitimer(ITIMER_PROF, &limit, nullptr) == 0, "setitimer");
+  ::alarm(hang_seconds);
+}
+
 // Empty where the round went well, else what is wrong.
 std::string failure_of(const Target& target, const std::string& input) {
   current_input = &input;
-  ::alarm(kHangSeconds);
+  watch(kBusySeconds, kHangSeconds);
   std::string failure;
   try {
     if (!target.run(input)) failure = "breaks a promise of the reader";
@@ -113,16 +123,17 @@ std::string failure_of(const Target& target, const std::string& input) {
   } catch (const std::exception& error) {
     failure = fmt::format("throws {}", error.what());
   }
-  ::alarm(0);
+  watch(0, 0);
   return failure;
 }
 
 int run(const Arguments& arguments) {
   const Target target = fuzz_target();
   const std::vector<std::string> originals = originals_of(target);
-  for (const int number : {SIGALRM, SIGSEGV, SIGBUS, SIGFPE, SIGABRT, SIGILL}) {
-    // Under the sanitizer its own handlers say more; it calls back before it ends.
-    if (number == SIGALRM || __sanitizer_set_death_callback == nullptr) std::signal(number, on_signal);
+  for (const int number : {SIGALRM, SIGPROF}) std::signal(number, on_signal);
+  // Under the sanitizer its own handlers say more; it calls back before it ends.
+  if (__sanitizer_set_death_callback == nullptr) {
+    for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT, SIGILL}) std::signal(number, on_signal);
   }
   if (__sanitizer_set_death_callback != nullptr) __sanitizer_set_death_callback(keep_input);
   const auto begin = std::chrono::steady_clock::now();
@@ -139,6 +150,7 @@ int run(const Arguments& arguments) {
       return 1;
     }
     if (round == first + (last - first) / 10) settled_mib = resident_mib();
+    if ((round + 1) % kToldEvery == 0) fmt::print(stderr, "{} rounds\n", round + 1);
   }
   current_input = nullptr;
   const std::int64_t growth = resident_mib() - settled_mib;

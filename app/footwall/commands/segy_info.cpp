@@ -194,6 +194,11 @@ std::string candidates_text(const std::vector<LineCandidate>& candidates) {
          "in bins)\n\n";
 }
 
+// Lines of a text header are often numbered and nothing more: "C12".
+bool says_something(std::string_view line) {
+  return line.find_first_not_of(" 0123456789", line.starts_with('C') ? 1 : 0) != std::string_view::npos;
+}
+
 std::string segy_text(const Inspection& found, const Json& facts) {
   const Report& report = found.report;
   std::string text = row(
@@ -220,7 +225,7 @@ std::string segy_text(const Inspection& found, const Json& facts) {
   text += "\n";
   for (const auto* lines : {&report.text_header, &report.extended_text_header}) {
     for (const std::string& line : *lines) {
-      if (!line.empty()) text += line + "\n";
+      if (says_something(line)) text += line + "\n";
     }
   }
   return text;

@@ -399,7 +399,7 @@ TEST_F(OpenProject, AProjectOfVersionOneGetsSurfacesThatBelongToFaults) {
     ASSERT_EQ(project.notices().size(), 1U);
     EXPECT_NE(project.notices()[0].find("from schema version 1 to 2"), std::string::npos);
     project.edit("import again", [&](Interpretation& it) {
-      it.add_surface(surface, "test", it.add_fault("F"), {"ft", "s"});
+      it.add_surface({"T", surface.vertices, surface.triangles}, "test", it.add_fault("F"), {"ft", "s"});
     });
     EXPECT_EQ(project.surfaces().at(1).units, (SurfaceUnits{"ft", "s"}));
   }

@@ -55,6 +55,25 @@ TEST_F(SticksOfAProject, ComeInAsOneUndoableEditInTheSurveysUnit) {
   EXPECT_TRUE(project.faults().empty());
 }
 
+TEST_F(SticksOfAProject, ACancelLeavesTheProjectAsItWas) {
+  project::Project project = make("p.footwall", true);
+  const auto file = sticks("INLINE- 104 310 1040 2250 100 F 1\nINLINE- 104 310 1040 2250 200 F 1\n");
+  JobContext* told = nullptr;
+  // Cancelled once the file has been read.
+  JobContext job([&](const Progress& progress) {
+    if (progress.phase == "read") told->cancel();
+  });
+  told = &job;
+  try {
+    import_sticks(project, file, "", {}, job);
+    FAIL() << "not cancelled";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kCancelled);
+  }
+  EXPECT_TRUE(project.faults().empty());
+  EXPECT_TRUE(project.history().empty());
+}
+
 TEST_F(SticksOfAProject, NamesThatAreTakenOrTooLongDoNotRefuseTheFile) {
   project::Project project = make("p.footwall", true);
   const std::string longest(200, 'a');
