@@ -160,6 +160,8 @@ std::string run_engine(const LaunchOptions& options, const std::filesystem::path
     if (std::filesystem::exists(result)) return read_whole_file(result, kResultLimit);
     throw Error(ErrorCode::kEngine, "the engine ended without a result", listener.last_words());
   }
+  // A cancel may arrive when the result has just been written; who was told "cancelled" must not find it.
+  if (job.cancelled()) std::filesystem::remove(result, ignored);
   job.check();
   // srun and mpirun end with the status of the ranks; one that was told before it could listen was killed by
   // it.

@@ -65,7 +65,8 @@ detail::Element element_of(SampleType type, bool swap) {
 
 // The offset after the lines that are to be skipped.
 std::int64_t after_lines(const detail::ReadOnlyFile& file, std::int64_t from, std::int64_t lines) {
-  std::vector<std::byte> buffer(kBuffer);
+  if (lines <= 0) return from;
+  std::vector<std::byte> buffer(static_cast<std::size_t>(std::min(kBuffer, file.size())));
   while (lines > 0) {
     const std::int64_t size = std::min(kBuffer, file.size() - from);
     if (size <= 0) {
@@ -187,7 +188,8 @@ void NrrdFile::State::unpack(const std::filesystem::path& scratch, const JobCont
     if (part > most) too_short(file, part - most);
   }
   detail::ScratchFile out(scratch, total);
-  std::vector<std::byte> buffer(kBuffer);
+  std::vector<std::byte> buffer(
+      static_cast<std::size_t>(std::min(kBuffer, std::max<std::int64_t>(total, header.byte_skip))));
   ByteRate rate(total);
   std::int64_t done = 0;
   for (std::size_t n = 0; n < files.size(); ++n) {
