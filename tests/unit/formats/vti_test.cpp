@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <regex>
 
 #include "scratch_folder.h"
 #include "storage/base/error.h"
@@ -34,8 +33,11 @@ void fill(const survey::Box& box, std::span<float> values) {
 }
 
 std::string attribute(const std::string& text, const std::string& name) {
-  std::smatch found;
-  return std::regex_search(text, found, std::regex(name + "=\"([^\"]*)\"")) ? found[1].str() : "";
+  const std::string mark = name + "=\"";
+  const std::size_t at = text.find(mark);
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + mark.size();
+  return text.substr(from, text.find('"', from) - from);
 }
 
 TEST(Vti, PlacesSamplesInTheWorld) {
