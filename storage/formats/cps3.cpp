@@ -98,10 +98,7 @@ bool recognises(std::string_view head) {
 }
 
 SticksImport parse(std::string_view text, const SticksOptions& options) {
-  Reader reader(options);
-  detail::Rows rows(text);
-  while (rows.next()) reader.add_row(rows.number(), rows.row());
-  return reader.finish();
+  return detail::read_rows(Reader(options), text);
 }
 
 std::string write(std::span<const Stick> sticks, const SticksWriteOptions& options,

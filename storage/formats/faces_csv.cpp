@@ -22,11 +22,8 @@ std::string quoted(const std::string& text) {
 // The contract's columns first, present or not, then the others as they appear.
 std::vector<std::string> columns_of(std::span<const MeshTable> meshes) {
   std::vector<std::string> columns{"count", "nulls", "outside", "mean", "variance", "min", "max"};
-  for (const MeshTable& mesh : meshes) {
-    for (const FaceStatistic& statistic : mesh.statistics) {
-      if (std::find(columns.begin(), columns.end(), statistic.name) == columns.end())
-        columns.push_back(statistic.name);
-    }
+  for (std::string& name : statistic_names(meshes)) {
+    if (std::find(columns.begin(), columns.end(), name) == columns.end()) columns.push_back(std::move(name));
   }
   return columns;
 }

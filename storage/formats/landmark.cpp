@@ -196,10 +196,7 @@ SticksImport parse(std::string_view text, const SticksOptions& options) {
   if (text::trimmed(options.layout).empty()) {
     throw Error(ErrorCode::kUsage, "a Landmark column file needs its format file", std::string(kLayoutHint));
   }
-  Reader reader(options, layout_of(options.layout));
-  detail::Rows rows(text);
-  while (rows.next()) reader.add_row(rows.number(), rows.row());
-  return reader.finish();
+  return detail::read_rows(Reader(options, layout_of(options.layout)), text);
 }
 
 }  // namespace footwall::formats::landmark

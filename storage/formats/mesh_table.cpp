@@ -1,5 +1,7 @@
 #include "storage/formats/mesh_table.h"
 
+#include <algorithm>
+
 #include "storage/base/error.h"
 
 namespace footwall::formats {
@@ -14,6 +16,17 @@ void check(const MeshTable& mesh) {
     for (const std::int32_t vertex : triangle)
       require(vertex >= 0 && vertex < vertices, "triangles name vertices");
   }
+}
+
+std::vector<std::string> statistic_names(std::span<const MeshTable> meshes) {
+  std::vector<std::string> names;
+  for (const MeshTable& mesh : meshes) {
+    for (const FaceStatistic& statistic : mesh.statistics) {
+      if (std::find(names.begin(), names.end(), statistic.name) == names.end())
+        names.push_back(statistic.name);
+    }
+  }
+  return names;
 }
 
 }  // namespace footwall::formats

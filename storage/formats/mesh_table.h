@@ -27,4 +27,7 @@ struct MeshTable {
 // Throws Error kInternal where sizes disagree or a triangle names a vertex that is not there.
 void check(const MeshTable& mesh);
 
+// The statistics that any of the meshes has, each once, in the order in which they first stand.
+std::vector<std::string> statistic_names(std::span<const MeshTable> meshes);
+
 }  // namespace footwall::formats

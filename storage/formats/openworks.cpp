@@ -148,10 +148,7 @@ bool recognises(std::string_view head) {
 }
 
 SticksImport parse(std::string_view text, const SticksOptions& options) {
-  Reader reader(options);
-  detail::Rows rows(text);
-  while (rows.next()) reader.add_row(rows.number(), rows.row());
-  return reader.finish();
+  return detail::read_rows(Reader(options), text);
 }
 
 }  // namespace footwall::formats::openworks

@@ -23,17 +23,6 @@ const FaceStatistic* find(const MeshTable& mesh, const std::string& name) {
   return nullptr;
 }
 
-std::vector<std::string> statistics_of(std::span<const MeshTable> meshes) {
-  std::vector<std::string> names;
-  for (const MeshTable& mesh : meshes) {
-    for (const FaceStatistic& statistic : mesh.statistics) {
-      if (std::find(names.begin(), names.end(), statistic.name) == names.end())
-        names.push_back(statistic.name);
-    }
-  }
-  return names;
-}
-
 survey::WorldPoint centroid(const MeshTable& mesh, const std::array<std::int32_t, 3>& triangle) {
   survey::WorldPoint sum;
   for (const std::int32_t corner : triangle) {
@@ -47,7 +36,7 @@ survey::WorldPoint centroid(const MeshTable& mesh, const std::array<std::int32_t
 
 std::vector<std::string> write(const std::filesystem::path& path, std::span<const MeshTable> meshes,
                                bool z_positive_up) {
-  const std::vector<std::string> names = statistics_of(meshes);
+  const std::vector<std::string> names = statistic_names(meshes);
   std::vector<std::string> renamed;
   const auto held = [&](const std::string& name) {
     std::string word = one_word(name);

@@ -8,32 +8,10 @@
 #include "storage/base/error.h"
 #include "storage/formats/detail/output_file.h"
 #include "storage/formats/detail/sample_grid.h"
+#include "storage/formats/detail/xml.h"
 
 namespace footwall::formats::vti {
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char letter : text) {
-    switch (letter) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out.push_back(static_cast<unsigned char>(letter) < 0x20 ? ' ' : letter);
-    }
-  }
-  return out;
-}
 
 struct Field {
   std::string name;
@@ -94,7 +72,7 @@ void write(const std::filesystem::path& path, const survey::Geometry& geometry, 
         field.name, offset);
     offset += sizeof(std::uint64_t) + field.value.size();
   }
-  const std::string name = escaped(options.name);
+  const std::string name = detail::xml_escaped(options.name);
   out.print("</FieldData>\n<Piece Extent=\"{}\">\n<PointData Scalars=\"{}\">\n", extent, name);
   out.print("<DataArray type=\"Float32\" Name=\"{}\" format=\"appended\" offset=\"{}\"/>\n", name, offset);
   out.print("</PointData>\n</Piece>\n</ImageData>\n<AppendedData encoding=\"raw\">\n_");

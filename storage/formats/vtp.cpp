@@ -10,34 +10,12 @@
 
 #include "storage/base/error.h"
 #include "storage/formats/detail/output_file.h"
+#include "storage/formats/detail/xml.h"
 
 namespace footwall::formats::vtp {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the file's header says little-endian");
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char letter : text) {
-    switch (letter) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out.push_back(static_cast<unsigned char>(letter) < 0x20 ? ' ' : letter);
-    }
-  }
-  return out;
-}
 
 // The XML part and, one after the other, the arrays that it announces.
 class Document {
@@ -51,8 +29,8 @@ class Document {
   // Announces an array of `bytes` bytes; `attributes` are what only this one has.
   void announce(std::string_view type, const std::string& name, std::string_view attributes,
                 std::uint64_t bytes) {
-    xml("<DataArray type=\"{}\" Name=\"{}\" {}format=\"appended\" offset=\"{}\"/>\n", type, escaped(name),
-        attributes, offset_);
+    xml("<DataArray type=\"{}\" Name=\"{}\" {}format=\"appended\" offset=\"{}\"/>\n", type,
+        detail::xml_escaped(name), attributes, offset_);
     offset_ += sizeof(std::uint64_t) + bytes;
   }
   // The arrays' bytes follow in the order of their announcement.
@@ -85,17 +63,6 @@ std::uint64_t bytes_of(const std::vector<std::string>& strings) {
 std::string without_zeros(std::string text) {
   std::erase(text, '\0');
   return text;
-}
-
-std::vector<std::string> statistic_names(std::span<const MeshTable> meshes) {
-  std::vector<std::string> names;
-  for (const MeshTable& mesh : meshes) {
-    for (const FaceStatistic& statistic : mesh.statistics) {
-      if (std::find(names.begin(), names.end(), statistic.name) == names.end())
-        names.push_back(statistic.name);
-    }
-  }
-  return names;
 }
 
 void put_statistic(Document& file, std::span<const MeshTable> meshes, const std::string& name) {

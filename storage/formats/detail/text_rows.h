@@ -34,6 +34,13 @@ class Rows {
   char end_ = '\n';
 };
 
+// What a reader with add_row(number, row) and finish() makes of a text.
+template <class Reader>
+auto read_rows(Reader reader, std::string_view text) {
+  for (Rows rows(text); rows.next();) reader.add_row(rows.number(), rows.row());
+  return reader.finish();
+}
+
 // The first `limit` rows that are neither blank nor comments, trimmed: what recognisers look at.
 std::vector<std::string_view> first_rows(std::string_view head, std::size_t limit = 50);
 
