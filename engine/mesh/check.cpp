@@ -63,10 +63,8 @@ std::vector<std::string> problems_of(const Mesh& mesh, std::size_t limit) {
     if (!std::isfinite(p.i) || !std::isfinite(p.j) || !std::isfinite(p.k))
       tell(fmt::format("vertex {} is not at a finite position", v));
     const auto& fan = around[v];
-    if (fan.empty()) {
-      tell(fmt::format("vertex {} has no face", v));
-      continue;
-    }
+    if (fan.empty() != mesh.is_lone_vertex(v)) tell(fmt::format("vertex {} does not know its faces", v));
+    if (fan.empty() || mesh.is_lone_vertex(v)) continue;
     std::set<FaceId> reached{fan.front()};
     std::vector<FaceId> queue{fan.front()};
     bool border = false;
