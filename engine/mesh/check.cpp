@@ -5,6 +5,9 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
+
+#include "storage/base/hash.h"
 
 namespace footwall::mesh {
 
@@ -98,6 +101,30 @@ std::vector<std::string> problems_of(const Mesh& mesh, std::size_t limit) {
     tell(fmt::format("there are {} vertices, {} edges and {} faces, but the mesh counts otherwise", vertices,
                      edges, faces));
   return found;
+}
+
+std::uint64_t state_hash(const Mesh& mesh) {
+  Hasher hasher;
+  const auto add = [&](const auto& value) { hasher.add(std::as_bytes(std::span(&value, 1))); };
+  add(std::array{mesh.vertex_limit(), mesh.edge_limit(), mesh.face_limit(), mesh.vertex_count(),
+                 mesh.edge_count(), mesh.face_count()});
+  for (VertexId v = 0; v < mesh.vertex_limit(); ++v) {
+    if (!mesh.has_vertex(v)) continue;
+    const auto& p = mesh.position(v);
+    add(std::array{v, mesh.fan_start(v)});
+    add(std::array{p.i, p.j, p.k});
+  }
+  for (EdgeId e = 0; e < mesh.edge_limit(); ++e) {
+    if (!mesh.has_edge(e)) continue;
+    add(e);
+    add(mesh.edge(e));
+  }
+  for (FaceId f = 0; f < mesh.face_limit(); ++f) {
+    if (!mesh.has_face(f)) continue;
+    add(f);
+    add(mesh.face(f));
+  }
+  return hasher.value();
 }
 
 }  // namespace footwall::mesh
