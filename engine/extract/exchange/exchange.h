@@ -6,6 +6,7 @@
 
 #include "engine/comm/communicator.h"
 #include "engine/extract/blocks.h"
+#include "engine/extract/cache/voxel_cache.h"
 #include "engine/extract/choice.h"
 #include "engine/extract/computations.h"
 #include "engine/extract/extract.h"
@@ -17,6 +18,8 @@ struct Setup {
   comm::Communicator& world;
   const comm::RankGrid& grid;
   const Blocks& blocks;  // this rank's own voxels
+  VoxelCache& cache;     // other ranks' voxels, from this extraction and earlier ones
+  SentRecord& sent;      // what other ranks have of this one's
   const Input& input;
   std::span<const int> responsible;  // of every face
   const Options& options;
@@ -60,6 +63,9 @@ bool inside(const survey::LatticeTriangle& triangle, const survey::Index& dims);
 // All are collective.
 Outcome exchange_reduce(const Setup& setup);
 Outcome exchange_minimum(const Setup& setup);
+Outcome exchange_block(const Setup& setup);
+Outcome exchange_bounding(const Setup& setup);
+Outcome exchange_push(const Setup& setup);
 
 // A strategy is one file in this folder and one row in strategies.cpp. run and check are null for one that is
 // known by name but not built.
