@@ -44,6 +44,8 @@ class Transfer {
     int from = -1;  // -1: sent
     int bytes = 0;
   };
+  // Waits for some that are open, or looks which have ended.
+  void take(bool wait);
   void ended(std::size_t n, const MPI_Status& status);
 
   Communicator& world_;
@@ -53,6 +55,8 @@ class Transfer {
   std::vector<int> pieces_left_;  // by rank: pieces of its receive that are not here
   std::vector<int> received_;     // ranks whose receive ended and was not told yet
   std::size_t open_ = 0;          // requests that have not ended
+  std::vector<int> ended_;        // room for MPI's answers
+  std::vector<MPI_Status> statuses_;
 };
 
 }  // namespace footwall::comm

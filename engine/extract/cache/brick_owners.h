@@ -33,8 +33,12 @@ class BrickOwners {
  public:
   explicit BrickOwners(const comm::RankGrid& grid);
 
-  MaskProduct owned(int rank, const std::array<std::int32_t, 3>& brick) const;
-  MaskProduct held(int rank, const std::array<std::int32_t, 3>& brick) const;
+  MaskProduct owned(int rank, const std::array<std::int32_t, 3>& brick) const {
+    return product(owned_, rank, brick);
+  }
+  MaskProduct held(int rank, const std::array<std::int32_t, 3>& brick) const {
+    return product(held_, rank, brick);
+  }
 
   // visit(owner, MaskProduct) for every rank that owns voxels of the brick.
   template <typename Visit>
@@ -50,18 +54,21 @@ class BrickOwners {
   }
 
  private:
-  // A bit for each crossline becomes a byte.
+  // Bit j becomes all of byte j.
   static std::uint64_t bytes(std::uint8_t lines) {
-    const std::uint64_t spread = lines * 0x0101010101010101u & 0x8040201008040201u;
-    return ((spread + 0x7F7F7F7F7F7F7F7Fu | spread) >> 7 & 0x0101010101010101u) * 0xFF;
+    std::uint64_t all = 0;
+    for (int j = 0; j < 8; ++j) all |= (lines >> j & 1) != 0 ? std::uint64_t{0xFF} << (8 * j) : 0;
+    return all;
   }
+  MaskProduct product(const std::array<std::vector<std::uint8_t>, 2>& lines, int rank,
+                      const std::array<std::int32_t, 3>& brick) const;
   // The lines of one brick that belong to one rank coordinate.
   struct Part {
     int coordinate = 0;
     std::uint8_t lines = 0;
   };
-  std::size_t row_of(int axis, int coordinate) const {
-    return static_cast<std::size_t>(coordinate) * bricks_[static_cast<std::size_t>(axis)];
+  std::size_t row_of(std::size_t axis, int coordinate) const {
+    return static_cast<std::size_t>(coordinate) * bricks_[axis];
   }
 
   int along_crosslines_ = 1;

@@ -21,21 +21,21 @@ class PairLedger {
   // What of `wanted` is not there yet.
   BrickList missing(const BrickList& wanted) const;
   const Mask& in(const survey::Index& brick) const { return voxels_.in(brick); }
-  std::int64_t bricks() const { return static_cast<std::int64_t>(times_.size()); }
-  std::int64_t voxels() const { return voxels_.count(); }
+  std::int64_t bricks() const { return voxels_.bricks(); }
+  std::int64_t voxels() const { return count_; }
 
   // Takes out bricks until at most `most` are left: those with the oldest last transfer first, the one with
-  // the lower index of two alike. Returns the bricks taken out.
-  std::vector<survey::Index> keep(std::int64_t most);
-  void clear();
+  // the lower index of two alike. Returns the bricks taken out, with the time of each.
+  struct Gone {
+    survey::Index brick{};
+    std::int64_t time = 0;
+  };
+  std::vector<Gone> keep(std::int64_t most);
 
  private:
-  struct Time {
-    survey::Index brick{};
-    std::int64_t last = 0;
-  };
   VoxelSet voxels_;
-  std::vector<Time> times_;
+  std::vector<std::int64_t> times_;  // of the last transfer, by slot of voxels_
+  std::int64_t count_ = 0;
 };
 
 }  // namespace footwall::extract

@@ -7,6 +7,7 @@
 // extraction to the next. During an extraction nothing is dropped; after it `trim` keeps the limit, which is
 // the same for every pair of ranks: a rank's cache_bytes divided by the number of other ranks.
 #pragma once
+#include <cstdlib>
 #include <memory>
 #include <span>
 #include <vector>
@@ -26,14 +27,15 @@ survey::Box part_of(const comm::RankGrid& grid, int rank);
 class VoxelCache {
  public:
   // `grid` and `blocks` must outlive it.
-  VoxelCache(const comm::RankGrid& grid, const Blocks& blocks, int rank);
-  ~VoxelCache();
+  VoxelCache(const comm::RankGrid& grid, const Blocks& blocks);
   VoxelCache(const VoxelCache&) = delete;
   VoxelCache& operator=(const VoxelCache&) = delete;
 
   const BrickOwners& owners() const { return owners_; }
 
-  // What of `wanted`, voxels of `owner`, is not here. The rest counts as hits of this extraction.
+  // What of `wanted`, voxels of `owner`, is not here.
+  BrickList lacking(int owner, const BrickList& wanted) const;
+  // The same; the rest counts as hits of this extraction.
   BrickList missing(int owner, const BrickList& wanted);
   // Takes the values of a list that `owner` sent, in the order of its bricks and bits.
   void put(int owner, const BrickList& list, std::span<const float> values);
@@ -59,10 +61,9 @@ class VoxelCache {
   float* values(std::size_t slot) const {
     return chunks_[slot / kChunk].get() + slot % kChunk * static_cast<std::size_t>(kBrickVoxels);
   }
-  PairLedger& ledger(int owner);
-  std::size_t slot_of(const std::array<std::int32_t, 3>& brick);
-  void fill_from_own(const std::array<std::int32_t, 3>& brick, float* values) const;
-  void drop(const survey::Index& brick);
+  // Where a brick's values are to go, for one pair more or for those there are.
+  float* slot_values(const survey::Index& brick, bool another_pair);
+  void copy_own(const survey::Index& brick, float* values) const;
 
   struct Release {
     void operator()(void* memory) const { std::free(memory); }
@@ -70,7 +71,6 @@ class VoxelCache {
 
   const comm::RankGrid& grid_;
   const Blocks& blocks_;
-  int rank_;
   BrickOwners owners_;
   BrickBox box_;                                         // of the survey
   std::unique_ptr<std::uint32_t[], Release> directory_;  // by place: 1 + slot; 0 = none
@@ -96,7 +96,7 @@ class SentRecord {
   void clear();
 
  private:
-  const comm::RankGrid& grid_;
+  int ranks_;
   survey::Box part_;
   std::vector<std::unique_ptr<PairLedger>> ledgers_;  // by receiver; null where nothing was sent
   std::int64_t time_ = 0;

@@ -2,6 +2,7 @@
 // touched pages take memory, and a mask of 64 bytes for every brick that holds a voxel.
 #pragma once
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -21,9 +22,9 @@ class VoxelSet {
   VoxelSet& operator=(VoxelSet&&) noexcept = default;
 
   const survey::Box& part() const { return box_.voxels(); }
-  bool empty() const { return bricks_.empty(); }
+  bool empty() const { return places_.empty(); }
   std::int64_t count() const;                                                        // voxels; O(bricks)
-  std::int64_t bricks() const { return static_cast<std::int64_t>(bricks_.size()); }  // with a voxel, or once
+  std::int64_t bricks() const { return static_cast<std::int64_t>(places_.size()); }  // that hold a voxel
 
   // Every voxel of the row, which must lie in part().
   void add(const voxelize::Row& row);
@@ -35,10 +36,18 @@ class VoxelSet {
   // The same, each moved by `by` voxels along an axis; what leaves part() is dropped.
   void add_shifted(const VoxelSet& other, int axis, std::int64_t by);
   void remove(const VoxelSet& other);
+  // Takes all voxels of a brick out.
+  void drop(const survey::Index& brick);
 
   bool contains(const survey::Index& voxel) const;
   // The voxels in a brick; none for one outside part().
   const Mask& in(const survey::Index& brick) const;
+  // The number, below bricks(), under which the brick is kept; -1 where it holds no voxel. drop() gives the
+  // dropped brick's number to the one with the highest.
+  std::int64_t slot(const survey::Index& brick) const;
+  survey::Index brick_of(std::int64_t slot) const {
+    return box_.brick(places_[static_cast<std::size_t>(slot)]);
+  }
 
   // visit(const BrickMask&) for every brick with a voxel, in ascending order.
   template <typename Visit>
@@ -58,17 +67,20 @@ class VoxelSet {
   Mask& mask_at(std::int64_t place);
 
   BrickBox box_;
-  Zeros<std::uint32_t> directory_;    // by place: 1 + where in bricks_ and masks_; 0 = no voxel
-  Zeros<std::uint64_t> occupied_;     // a bit for each place
-  std::vector<std::int64_t> bricks_;  // places, in the order of first touch
-  std::vector<Mask> masks_;
-  std::int64_t lowest_ = 0;  // words of occupied_ that may be other than 0
+  Zeros<std::uint32_t> directory_;                                  // by place: 1 + slot; 0 = no voxel
+  Zeros<std::uint64_t> occupied_;                                   // a bit for each place
+  std::vector<std::int64_t> places_;                                // by slot
+  std::vector<Mask> masks_;                                         // by slot; none of them empty
+  std::int64_t lowest_ = std::numeric_limits<std::int64_t>::max();  // words of occupied_ that may not be 0
   std::int64_t highest_ = -1;
 };
 
-// `from` and each of its voxels' neighbours up to `reach` traces away in inline and crossline direction, in
-// from's part. The two sets are room to work in, of the same part.
-void grow(VoxelSet& from, std::int32_t reach, VoxelSet& room);
+// Adds to every voxel of the set those up to `reach` traces away in inline and in crossline direction, inside
+// its part. `room` is to work in, of the same part.
+void grow(VoxelSet& set, std::int32_t reach, VoxelSet& room);
+// Adds around every voxel x the block of side^3 voxels that begins at x - floor(side / 2) on each axis,
+// inside its part.
+void add_blocks(VoxelSet& set, std::int64_t side, VoxelSet& room);
 
 template <typename Visit>
 void VoxelSet::for_each(Visit&& visit) const {
@@ -76,7 +88,6 @@ void VoxelSet::for_each(Visit&& visit) const {
     for (std::uint64_t word = occupied_[static_cast<std::size_t>(w)]; word != 0; word &= word - 1) {
       const std::int64_t place = w * 64 + std::countr_zero(word);
       const Mask& mask = masks_[directory_[static_cast<std::size_t>(place)] - 1];
-      if (none(mask)) continue;
       const survey::Index brick = box_.brick(place);
       visit(BrickMask{{static_cast<std::int32_t>(brick[0]), static_cast<std::int32_t>(brick[1]),
                        static_cast<std::int32_t>(brick[2])},

@@ -53,8 +53,10 @@ struct FinishedBlob {
 struct Outcome {
   std::vector<Finished> finished;  // the faces that this rank is responsible for
   std::vector<FinishedBlob> blobs;
-  std::int64_t walked = 0;  // voxels that this rank voxelized
-  Seconds seconds;          // of this rank
+  std::int64_t walked = 0;      // voxels that this rank voxelized
+  Seconds seconds;              // of this rank
+  std::int64_t cache_hits = 0;  // filled in by the caller, from Setup::cache
+  std::int64_t cache_voxels = 0;
 };
 
 // Whether the whole closed triangle lies in the survey's box.
@@ -66,6 +68,7 @@ Outcome exchange_minimum(const Setup& setup);
 Outcome exchange_block(const Setup& setup);
 Outcome exchange_bounding(const Setup& setup);
 Outcome exchange_push(const Setup& setup);
+void check_block(const Choice& choice);  // "block=B", B^3 voxels for each missing one
 
 // A strategy is one file in this folder and one row in strategies.cpp. run and check are null for one that is
 // known by name but not built.
