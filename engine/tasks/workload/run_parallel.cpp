@@ -94,6 +94,7 @@ class Runner {
     // 2 The repeats.
     size_ = plan.size;
     all_steps_ = plan.steps();
+    all_repeats_ = plan.repeats.size();
     for (std::size_t r = 0; r < plan.repeats.size(); ++r) {
       Timed& repeat = *repeats_.emplace_back(std::make_unique<Timed>());
       static const WorkloadRepeat kElsewhere;
@@ -112,13 +113,14 @@ class Runner {
  private:
   void run_repeat(const WorkloadRepeat& script, const std::vector<std::uint8_t>& steps, std::size_t number,
                   Timed& repeat) {
+    if (number > 0 && !run_.keep_cache) survey_->forget_cache();
     for (std::size_t s = 0; s < steps.size(); ++s) {
       const auto share = [&](std::size_t done) {
         return 0.05 + 0.93 * static_cast<double>(done) / static_cast<double>(all_steps_);
       };
       const JobContext part = job_.part(share(done_steps_), share(done_steps_ + 1));
       world_.collectively(
-          [&] { part.report(0, "workload", fmt::format("repeat {} of {}", number + 1, repeats_.size())); });
+          [&] { part.report(0, "workload", fmt::format("repeat {} of {}", number + 1, all_repeats_)); });
       static const std::vector<mesh::Operation> kNone;
       const double start = omp_get_wtime();
       const extract::SharedModel::Outcome outcome =
@@ -206,7 +208,7 @@ class Runner {
   std::optional<extract::LoadedSurvey> survey_;
   survey::Index size_{0, 0, 0};
   double read_seconds_ = 0;
-  std::size_t all_steps_ = 0, done_steps_ = 0;
+  std::size_t all_repeats_ = 0, all_steps_ = 0, done_steps_ = 0;
   WorkloadTotals totals_;
   std::vector<std::unique_ptr<Timed>> repeats_;
 };
