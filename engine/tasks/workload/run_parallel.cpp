@@ -67,6 +67,11 @@ Plan shared_plan(const comm::Communicator& world, const Workload& workload) {
   return plan;
 }
 
+// What was asked for, or what `auto` chose where that was always the same.
+std::string ran(const std::string& asked, const std::map<std::string, std::int64_t>& names) {
+  return asked == "auto" && names.size() == 1 ? names.begin()->first : asked;
+}
+
 struct Timed {
   WorkloadTotals totals;
   double seconds = 0;  // of this rank, of operations
@@ -141,8 +146,8 @@ class Runner {
     model_.take_changes();
     const extract::Input input{size_, 1.0, faces};
     const extract::Result result = survey_->extract(input, run_.options, part);
-    repeat.totals.add(result, false);
-    totals_.add(result, false);
+    repeat.totals.add(result);
+    totals_.add(result);
   }
 
   // The refusals are the same on every rank, so that all come here.
@@ -175,8 +180,8 @@ class Runner {
                    {"size", workload.size},
                    {"ranks", world_.size()},
                    {"threads", run_.options.threads},
-                   {"exchange", run_.options.exchange},
-                   {"balance", run_.options.balance},
+                   {"exchange", ran(run_.options.exchange, totals_.exchanges())},
+                   {"balance", ran(run_.options.balance, totals_.balances())},
                    {"voxelizer", run_.options.voxelizer},
                    {"compute", run_.options.compute},
                    {"seed", run_.seed},
@@ -195,7 +200,7 @@ class Runner {
                      {"split_edge", counts.split_edge},
                      {"extract_all", counts.extract_all}}},
                    {"exchanges", totals_.exchanges()},
-                   {"incremental", totals_.incremental()},
+                   {"balances", totals_.balances()},
                    {"repeats", repeats}});
     result["seconds"]["read"] = read;
     return result;

@@ -11,8 +11,10 @@
 //   faces, voxels, bytes_sent, messages, cache_hits   sums over EXTRACT-ALLs
 //   cache_voxels                                      the most that were kept
 //   load_max_over_mean, load_deviation                means over EXTRACT-ALLs (seed 004, equation 5.4)
-//   exchanges    {name: EXTRACT-ALLs that ran it}
-//   incremental  EXTRACT-ALLs that did only the faces touched since the one before
+//   exchanges, balances   {name: EXTRACT-ALLs that ran it}; exchange and balance are what was asked for, or
+//                what `auto` chose where that was always the same
+//   quickest     {balance, voxelize, exchange, compute} of the quickest rank in each
+//   predicted    the same by the cost model; zeros where it was not asked
 //   checksum     over the results of every EXTRACT-ALL, the same for any rank count and strategy
 //   repeats[]    {slowest_rank, quickest_rank, seconds{}, extracts, faces, voxels, bytes_sent, messages,
 //                cache_hits, load_max_over_mean, load_deviation, checksum}

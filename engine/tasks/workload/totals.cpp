@@ -4,22 +4,38 @@
 #include <array>
 
 namespace footwall::tasks {
+namespace {
 
-void WorkloadTotals::add(const extract::Result& result, bool incremental) {
+void add_phases(const extract::Seconds& seconds, extract::Seconds& sum) {
+  sum.balance += seconds.balance;
+  sum.voxelize += seconds.voxelize;
+  sum.exchange += seconds.exchange;
+  sum.compute += seconds.compute;
+}
+
+nlohmann::json phases(const extract::Seconds& seconds) {
+  return {{"balance", seconds.balance},
+          {"voxelize", seconds.voxelize},
+          {"exchange", seconds.exchange},
+          {"compute", seconds.compute}};
+}
+
+}  // namespace
+
+void WorkloadTotals::add(const extract::Result& result) {
   const extract::Report& r = result.report;
   ++extracts_;
-  incremental_ += incremental;
   ++exchanges_[r.exchange];
+  ++balances_[r.balance];
   sum_.faces += r.faces;
   sum_.voxels += r.voxels;
   sum_.bytes_sent += r.bytes_sent;
   sum_.messages += r.messages;
   sum_.cache_hits += r.cache_hits;
   sum_.cache_voxels = std::max(sum_.cache_voxels, r.cache_voxels);
-  sum_.seconds.balance += r.seconds.balance;
-  sum_.seconds.voxelize += r.seconds.voxelize;
-  sum_.seconds.exchange += r.seconds.exchange;
-  sum_.seconds.compute += r.seconds.compute;
+  add_phases(r.seconds, sum_.seconds);
+  add_phases(r.quickest, sum_.quickest);
+  add_phases(r.predicted, sum_.predicted);
   max_over_mean_ += r.load_max_over_mean;
   deviation_ += r.load_deviation;
   const std::array<std::uint64_t, 1> statistics{r.checksum};
@@ -32,15 +48,14 @@ void WorkloadTotals::add(const extract::Result& result, bool incremental) {
 
 nlohmann::json WorkloadTotals::json(double slowest, double quickest) const {
   const double extracts = static_cast<double>(std::max<std::int64_t>(1, extracts_));
+  nlohmann::json seconds = phases(sum_.seconds);
+  seconds["apply"] = apply_;
+  seconds["total"] = slowest;
   return {{"slowest_rank", slowest},
           {"quickest_rank", quickest},
-          {"seconds",
-           {{"apply", apply_},
-            {"balance", sum_.seconds.balance},
-            {"voxelize", sum_.seconds.voxelize},
-            {"exchange", sum_.seconds.exchange},
-            {"compute", sum_.seconds.compute},
-            {"total", slowest}}},
+          {"seconds", seconds},
+          {"quickest", phases(sum_.quickest)},
+          {"predicted", phases(sum_.predicted)},
           {"extracts", extracts_},
           {"faces", sum_.faces},
           {"voxels", sum_.voxels},
