@@ -64,6 +64,20 @@ void gather(const Blocks& blocks, const BrickList& list, std::span<float> values
   require(out == values.data() + values.size(), "room for every voxel of the list");
 }
 
+void gather(const Blocks& blocks, std::span<const Coordinates> coordinates, std::span<float> values) {
+  require(values.size() == coordinates.size(), "room for every value");
+  const Block* block = nullptr;
+  for (std::size_t n = 0; n < coordinates.size(); ++n) {
+    const Coordinates& p = coordinates[n];
+    const survey::Index voxel{p[0], p[1], p[2]};
+    if (block == nullptr || !block->own().contains(voxel)) {
+      block = blocks.owning(voxel);
+      require(block != nullptr, "a request for a voxel of this rank");
+    }
+    values[n] = block->data()[block->offset(voxel)];
+  }
+}
+
 void coordinates_of(const BrickList& list, std::span<Coordinates> coordinates) {
   Coordinates* out = coordinates.data();
   for (const BrickMask& each : list) {
@@ -80,17 +94,22 @@ void coordinates_of(const BrickList& list, std::span<Coordinates> coordinates) {
 
 BrickList bricks_of(std::span<const Coordinates> coordinates) {
   BrickList list;
-  const Coordinates* previous = nullptr;
+  // A face cuts some 50 voxels of a brick.
+  list.reserve(coordinates.size() / 16 + 1);
+  Coordinates first{-8, -8, -8};  // of the last brick
+  std::int32_t last = -1;         // its last voxel
   for (const Coordinates& p : coordinates) {
-    const std::array<std::int32_t, 3> brick{p[0] >> 3, p[1] >> 3, p[2] >> 3};
-    if (list.empty() || list.back().brick != brick) {
+    if (((p[0] ^ first[0]) | (p[1] ^ first[1]) | (p[2] ^ first[2])) >> 3 != 0) {
+      const std::array<std::int32_t, 3> brick{p[0] >> 3, p[1] >> 3, p[2] >> 3};
       require(list.empty() || list.back().brick < brick, "voxels in the order of their bricks");
       list.push_back({brick, {}});
-      previous = nullptr;
+      first = {p[0] & ~7, p[1] & ~7, p[2] & ~7};
+      last = -1;
     }
-    require(previous == nullptr || *previous < p, "the voxels of a brick in order, each once");
-    list.back().mask[static_cast<std::size_t>(p[0] & 7)] |= std::uint64_t{1} << (8 * (p[1] & 7) + (p[2] & 7));
-    previous = &p;
+    const std::int32_t voxel = (p[0] & 7) * 64 + (p[1] & 7) * 8 + (p[2] & 7);
+    require(last < voxel, "the voxels of a brick in order, each once");
+    list.back().mask[static_cast<std::size_t>(voxel / 64)] |= std::uint64_t{1} << (voxel % 64);
+    last = voxel;
   }
   return list;
 }

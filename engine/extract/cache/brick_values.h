@@ -17,6 +17,9 @@ static_assert(sizeof(Coordinates) == 12);
 // The values of a list of own voxels, as many as it has.
 void gather(const Blocks& blocks, const BrickList& list, std::span<float> values);
 
+// The same of voxels that another rank named. Throws kInternal for one that is not of this rank.
+void gather(const Blocks& blocks, std::span<const Coordinates> coordinates, std::span<float> values);
+
 // Where they are, in the same order.
 void coordinates_of(const BrickList& list, std::span<Coordinates> coordinates);
 // The list whose coordinates these are. Throws kInternal for coordinates that coordinates_of did not write.

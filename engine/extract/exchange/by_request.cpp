@@ -5,6 +5,7 @@
 #include "engine/comm/transfer.h"
 #include "engine/extract/cache/brick_values.h"
 #include "engine/extract/exchange/compute_faces.h"
+#include "engine/extract/exchange/message_buffer.h"
 #include "engine/extract/exchange/wanted_voxels.h"
 
 namespace footwall::extract {
@@ -13,14 +14,11 @@ namespace {
 constexpr int kRequests = 2;
 constexpr int kAnswers = 3;
 
-template <typename T>
-using PerRank = std::vector<std::vector<T>>;
-
-// What this rank asks for and what it is asked for, by the other rank.
+// What this rank asks of each other.
 struct Plan {
   OwnFaces faces;
   ListPerRank missing;
-  PerRank<Coordinates> requests;
+  BufferPerRank<Coordinates> requests;
 };
 
 Plan plan_of(const Setup& setup, std::int64_t side) {
@@ -35,7 +33,7 @@ Plan plan_of(const Setup& setup, std::int64_t side) {
   }
   for (const BrickList& list : plan.missing) {
     plan.requests.emplace_back(static_cast<std::size_t>(voxels_in(list)));
-    coordinates_of(list, plan.requests.back());
+    coordinates_of(list, plan.requests.back().items());
   }
   return plan;
 }
@@ -50,40 +48,34 @@ Outcome exchange_by_request(const Setup& setup, std::int64_t side) {
   const Plan plan = world.collectively([&] { return plan_of(setup, side); });
   const double voxelized = omp_get_wtime();
 
+  BufferPerRank<Coordinates> asked(ranks);
+  BufferPerRank<float> answers(ranks);
+  BufferPerRank<float> values(ranks);
   if (ranks > 1) {
     std::vector<std::uint64_t> asking(ranks);
     for (std::size_t r = 0; r < ranks; ++r) asking[r] = plan.requests[r].size();
-    const std::vector<std::uint64_t> asked = comm::exchange_sizes(world, asking);
-    PerRank<Coordinates> others(ranks);
-    PerRank<float> answers(ranks);
-    PerRank<float> values(ranks);
+    const std::vector<std::uint64_t> being_asked = comm::exchange_sizes(world, asking);
     world.collectively([&] {
       for (std::size_t r = 0; r < ranks; ++r) {
-        others[r].resize(asked[r]);
-        answers[r].resize(asked[r]);
-        values[r].resize(asking[r]);
+        asked[r] = MessageBuffer<Coordinates>(being_asked[r]);
+        answers[r] = MessageBuffer<float>(being_asked[r]);
+        values[r] = MessageBuffer<float>(asking[r]);
       }
     });
     comm::Transfer requests(world, kRequests);
     comm::Transfer replies(world, kAnswers);
     for (std::size_t r = 0; r < ranks; ++r) {
-      requests.receive(static_cast<int>(r), std::as_writable_bytes(std::span(others[r])));
-      replies.receive(static_cast<int>(r), std::as_writable_bytes(std::span(values[r])));
+      requests.receive(static_cast<int>(r), asked[r].bytes());
+      replies.receive(static_cast<int>(r), values[r].bytes());
     }
     for (std::size_t n = 1; n < ranks; ++n) {
       const std::size_t r = (static_cast<std::size_t>(world.rank()) + n) % ranks;  // not all to rank 0 first
-      requests.send(static_cast<int>(r), std::as_bytes(std::span(plan.requests[r])));
+      requests.send(static_cast<int>(r), plan.requests[r].bytes());
     }
     for (int from = requests.next_received(); from >= 0; from = requests.next_received()) {
       const auto r = static_cast<std::size_t>(from);
-      const BrickList list = bricks_of(others[r]);
-      gather(setup.blocks, list, answers[r]);
-      replies.send(from, std::as_bytes(std::span(answers[r])));
-      setup.sent.enter(from, list);
-    }
-    for (int from = replies.next_received(); from >= 0; from = replies.next_received()) {
-      const auto r = static_cast<std::size_t>(from);
-      setup.cache.put(from, plan.missing[r], values[r]);
+      gather(setup.blocks, std::as_const(asked[r]).items(), answers[r].items());
+      replies.send(from, answers[r].bytes());
     }
     requests.wait();
     replies.wait();
@@ -91,6 +83,10 @@ Outcome exchange_by_request(const Setup& setup, std::int64_t side) {
   const double exchanged = omp_get_wtime();
 
   world.collectively([&] {
+    for (std::size_t r = 0; r < ranks; ++r) {
+      setup.sent.enter(static_cast<int>(r), bricks_of(asked[r].items()));
+      if (!plan.missing[r].empty()) setup.cache.put(static_cast<int>(r), plan.missing[r], values[r].items());
+    }
     compute_faces(setup, plan.faces.local, outcome);
     compute_faces(setup, plan.faces.crossing, outcome);
   });
