@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/extract/balance/start.h"
+
 namespace footwall::extract {
 namespace {
 
@@ -31,11 +33,7 @@ survey::Index centroid_voxel(const survey::LatticeTriangle& t, const survey::Ind
 }
 
 std::vector<int> balance_none(const BalanceInput& input) {
-  const comm::RankGrid& grid = input.grid;
-  std::vector<int> ranks(input.faces.size());
-  std::transform(input.faces.begin(), input.faces.end(), ranks.begin(),
-                 [&](const Face& face) { return grid.owner(centroid_voxel(face.triangle, grid.dims())); });
-  return ranks;
+  return starting_ranks(input);
 }
 
 void check_none(const Choice& choice) {
