@@ -5,6 +5,9 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
+
+#include "storage/base/hash.h"
 
 namespace footwall::mesh {
 
@@ -63,10 +66,8 @@ std::vector<std::string> problems_of(const Mesh& mesh, std::size_t limit) {
     if (!std::isfinite(p.i) || !std::isfinite(p.j) || !std::isfinite(p.k))
       tell(fmt::format("vertex {} is not at a finite position", v));
     const auto& fan = around[v];
-    if (fan.empty()) {
-      tell(fmt::format("vertex {} has no face", v));
-      continue;
-    }
+    if (fan.empty() != mesh.is_lone_vertex(v)) tell(fmt::format("vertex {} does not know its faces", v));
+    if (fan.empty() || mesh.is_lone_vertex(v)) continue;
     std::set<FaceId> reached{fan.front()};
     std::vector<FaceId> queue{fan.front()};
     bool border = false;
@@ -100,6 +101,30 @@ std::vector<std::string> problems_of(const Mesh& mesh, std::size_t limit) {
     tell(fmt::format("there are {} vertices, {} edges and {} faces, but the mesh counts otherwise", vertices,
                      edges, faces));
   return found;
+}
+
+std::uint64_t state_hash(const Mesh& mesh) {
+  Hasher hasher;
+  const auto add = [&](const auto& value) { hasher.add(std::as_bytes(std::span(&value, 1))); };
+  add(std::array{mesh.vertex_limit(), mesh.edge_limit(), mesh.face_limit(), mesh.vertex_count(),
+                 mesh.edge_count(), mesh.face_count()});
+  for (VertexId v = 0; v < mesh.vertex_limit(); ++v) {
+    if (!mesh.has_vertex(v)) continue;
+    const auto& p = mesh.position(v);
+    add(std::array{v, mesh.fan_start(v)});
+    add(std::array{p.i, p.j, p.k});
+  }
+  for (EdgeId e = 0; e < mesh.edge_limit(); ++e) {
+    if (!mesh.has_edge(e)) continue;
+    add(e);
+    add(mesh.edge(e));
+  }
+  for (FaceId f = 0; f < mesh.face_limit(); ++f) {
+    if (!mesh.has_face(f)) continue;
+    add(f);
+    add(mesh.face(f));
+  }
+  return hasher.value();
 }
 
 }  // namespace footwall::mesh

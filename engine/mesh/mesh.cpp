@@ -23,6 +23,11 @@ void check_finite(const IndexPoint& p, std::int64_t vertex) {
     refuse(fmt::format("the position of mesh vertex {} is not finite", vertex));
 }
 
+[[noreturn]] void refuse_to_pinch(VertexId vertex) {
+  refuse(fmt::format("without the removed faces, mesh parts would meet in vertex {} alone", vertex),
+         "remove the faces on one side of that vertex as well");
+}
+
 int corner_of(const Face& face, VertexId vertex) {
   return face.vertices[0] == vertex ? 0 : face.vertices[1] == vertex ? 1 : 2;
 }
@@ -132,14 +137,17 @@ AddedFace Mesh::add_face(EdgeId border_edge, const IndexPoint& position) {
   const EdgeId bw = new_edge(b, w, f);
   const EdgeId wa = new_edge(w, a, f);
   new_face({a, b, w}, {border_edge, bw, wa});
-  for (VertexId each : {a, b, w}) refresh_vertex(each, f);
+  // At a the face ends the fan, at b it starts it, at w it is the fan.
+  vertices_[b].edge = bw;
+  vertices_[w].edge = wa;
   return {f, w};
 }
 
-AddedFace Mesh::add_face(EdgeId border_edge, VertexId border_vertex) {
+AddedFace Mesh::add_face(EdgeId border_edge, VertexId vertex) {
   if (!is_border_edge(border_edge)) refuse(fmt::format("mesh edge {} has faces on both sides", border_edge));
-  const VertexId w = border_vertex;
-  if (!is_border_vertex(w)) refuse(fmt::format("mesh vertex {} is not on the border", w));
+  const VertexId w = vertex;
+  if (!is_lone_vertex(w) && !is_border_vertex(w))
+    refuse(fmt::format("mesh vertex {} is not on the border", w));
   const int side = edges_[border_edge].faces[0] == kNone ? 0 : 1;
   const VertexId a = edges_[border_edge].vertices[side], b = edges_[border_edge].vertices[1 - side];
   if (w == a || w == b) refuse(fmt::format("mesh vertex {} is an end of edge {}", w, border_edge));
@@ -157,7 +165,7 @@ AddedFace Mesh::add_face(EdgeId border_edge, VertexId border_vertex) {
   };
   EdgeId bw = sewn(b, w);
   EdgeId wa = sewn(w, a);
-  if (bw == kNone && wa == kNone)
+  if (bw == kNone && wa == kNone && !is_lone_vertex(w))
     refuse(fmt::format("the face would touch the mesh at vertex {} in that point alone", w));
 
   const FaceId f = face_limit();
@@ -174,7 +182,88 @@ AddedFace Mesh::add_face(EdgeId border_edge, VertexId border_vertex) {
   return {f, w};
 }
 
+EdgeSplit Mesh::split_edge(EdgeId id, const IndexPoint& position) {
+  check_finite(position, vertex_limit());
+  const Edge old = edge(id);
+  const VertexId b = old.vertices[1];
+  EdgeSplit split;
+  const VertexId m = split.vertex = new_vertex(position);
+  const EdgeId mb = split.edge = new_edge(m, b, kNone);
+  edges_[id].vertices[1] = m;
+  if (vertices_[b].edge == id) vertices_[b].edge = mb;
+  // The new vertex's fan starts at a border edge that leaves it with its face to the left.
+  vertices_[m].edge = old.faces[0] == kNone ? id : mb;
+  for (int side = 0; side < 2; ++side) {
+    const FaceId f = old.faces[side];
+    if (f == kNone) continue;
+    // The face (from, to, apex) keeps its id where it keeps a.
+    const int k = corner_of(faces_[f], old.vertices[side]);
+    const VertexId apex = faces_[f].vertices[(k + 2) % 3];
+    const EdgeId after = faces_[f].edges[(k + 1) % 3], before = faces_[f].edges[(k + 2) % 3];
+    const FaceId g = split.faces[side] = face_limit();
+    const EdgeId inner = new_edge(m, apex, kNone);
+    const EdgeId far = side == 0 ? after : before;  // from b to the apex, or back
+    edges_[far].faces[side_of(edges_[far], f)] = g;
+    edges_[mb].faces[side] = g;
+    if (side == 0) {
+      edges_[inner].faces = {f, g};
+      new_face({m, b, apex}, {mb, after, inner});
+      faces_[f].vertices[(k + 1) % 3] = m;
+      faces_[f].edges[(k + 1) % 3] = inner;
+    } else {
+      edges_[inner].faces = {g, f};
+      new_face({b, m, apex}, {mb, inner, before});
+      faces_[f].vertices[k] = m;
+      faces_[f].edges[(k + 2) % 3] = inner;
+    }
+  }
+  return split;
+}
+
 void Mesh::remove_faces(std::span<const FaceId> faces) {
+  remove(faces, Unused::kRemove);
+}
+
+void Mesh::remove_face(FaceId face) {
+  remove_one(face, Unused::kRemove);
+}
+
+std::vector<FaceId> Mesh::remove_faces_around(VertexId vertex) {
+  position(vertex);
+  std::vector<FaceId> gone = faces_of(*this, vertex);
+  if (gone.size() == 1) {
+    remove_one(gone.front(), Unused::kKeep);
+  } else {
+    remove(gone, Unused::kKeep);
+  }
+  vertices_[vertex].edge = kNone;
+  --vertex_count_;
+  return gone;
+}
+
+// In constant time: around each of its vertices, whether the face's two edges are on the border tells whether
+// it is an end of the fan, all of it, or inside.
+void Mesh::remove_one(FaceId id, Unused unused) {
+  const Face gone = face(id);
+  const auto on_border = [&](int k) { return is_border_edge(gone.edges[k % 3]); };
+  for (int k = 0; k < 3; ++k) {
+    if (!on_border(k) && !on_border(k + 2) && is_border_vertex(gone.vertices[k]))
+      refuse_to_pinch(gone.vertices[k]);
+  }
+  for (int k = 0; k < 3; ++k) {
+    const VertexId v = gone.vertices[k];
+    if (on_border(k) && on_border(k + 2)) {
+      leave_vertex(v, unused);
+    } else if (!on_border(k + 2)) {
+      vertices_[v].edge = gone.edges[(k + 2) % 3];  // the face was first, or the fan was closed
+    }
+  }
+  for (const EdgeId e : gone.edges) detach(e, id);
+  faces_[id] = Face{};
+  --face_count_;
+}
+
+void Mesh::remove(std::span<const FaceId> faces, Unused unused) {
   std::vector<FaceId> gone(faces.begin(), faces.end());
   std::sort(gone.begin(), gone.end());
   for (std::size_t n = 0; n < gone.size(); ++n) {
@@ -199,18 +288,11 @@ void Mesh::remove_faces(std::span<const FaceId> faces) {
       const bool starts = n > 0 ? !stays(fan[n - 1]) : (open || !stays(fan.back()));
       runs += starts;
     }
-    if (runs > 1)
-      refuse(fmt::format("without the removed faces, mesh parts would meet in vertex {} alone", v),
-             "remove the faces on one side of that vertex as well");
+    if (runs > 1) refuse_to_pinch(v);
   }
   // 2. Take them out.
   for (FaceId f : gone) {
-    for (EdgeId e : faces_[f].edges) {
-      edges_[e].faces[side_of(edges_[e], f)] = kNone;
-      if (edges_[e].faces[0] != kNone || edges_[e].faces[1] != kNone) continue;
-      edges_[e] = Edge{};
-      --edge_count_;
-    }
+    for (EdgeId e : faces_[f].edges) detach(e, f);
     faces_[f] = Face{};
     --face_count_;
   }
@@ -218,10 +300,22 @@ void Mesh::remove_faces(std::span<const FaceId> faces) {
     if (left != kNone) {
       refresh_vertex(v, left);
     } else {
-      vertices_[v].edge = kNone;
-      --vertex_count_;
+      leave_vertex(v, unused);
     }
   }
+}
+
+void Mesh::leave_vertex(VertexId vertex, Unused unused) {
+  vertices_[vertex].edge = unused == Unused::kKeep ? kLone : kNone;
+  if (unused == Unused::kRemove) --vertex_count_;
+}
+
+void Mesh::detach(EdgeId id, FaceId face) {
+  Edge& e = edges_[id];
+  e.faces[side_of(e, face)] = kNone;
+  if (e.faces[0] != kNone || e.faces[1] != kNone) return;
+  e = Edge{};
+  --edge_count_;
 }
 
 void Mesh::move_vertex(VertexId vertex, const IndexPoint& to) {
@@ -263,9 +357,24 @@ Wings Mesh::wings(EdgeId id) const {
   return wings;
 }
 
+EdgeId Mesh::next_edge(FaceId id, EdgeId edge) const {
+  return face(id).edges[(place_of(id, edge) + 1) % 3];
+}
+
+EdgeId Mesh::previous_edge(FaceId id, EdgeId edge) const {
+  return face(id).edges[(place_of(id, edge) + 2) % 3];
+}
+
+int Mesh::place_of(FaceId id, EdgeId edge) const {
+  const auto& edges = face(id).edges;
+  const auto found = std::find(edges.begin(), edges.end(), edge);
+  if (found == edges.end()) refuse(fmt::format("mesh face {} has no edge {}", id, edge));
+  return static_cast<int>(found - edges.begin());
+}
+
 EdgeId Mesh::fan_start(VertexId vertex) const {
   position(vertex);
-  return vertices_[vertex].edge;
+  return vertices_[vertex].edge == kLone ? kNone : vertices_[vertex].edge;
 }
 
 bool Mesh::is_border_edge(EdgeId id) const {
@@ -274,7 +383,8 @@ bool Mesh::is_border_edge(EdgeId id) const {
 }
 
 bool Mesh::is_border_vertex(VertexId vertex) const {
-  return is_border_edge(fan_start(vertex));
+  const EdgeId start = fan_start(vertex);
+  return start != kNone && is_border_edge(start);
 }
 
 EdgeId Mesh::new_edge(VertexId from, VertexId to, FaceId left) {

@@ -25,15 +25,21 @@ FaceId across(const Mesh& mesh, FaceId face, EdgeId edge) {
 }
 
 std::vector<FaceId> faces_of(const Mesh& mesh, VertexId vertex) {
-  const FaceId first = first_face(mesh, vertex, mesh.fan_start(vertex));
   std::vector<FaceId> fan;
+  append_faces_of(mesh, vertex, fan);
+  return fan;
+}
+
+void append_faces_of(const Mesh& mesh, VertexId vertex, std::vector<FaceId>& fan) {
+  const EdgeId start = mesh.fan_start(vertex);
+  if (start == kNone) return;
+  const FaceId first = first_face(mesh, vertex, start);
   FaceId f = first;
   do {
     fan.push_back(f);
     const Face& face = mesh.face(f);
     f = across(mesh, f, face.edges[(corner_of(face, vertex) + 2) % 3]);
   } while (f != kNone && f != first);
-  return fan;
 }
 
 std::vector<EdgeId> edges_of(const Mesh& mesh, VertexId vertex) {
@@ -43,6 +49,7 @@ std::vector<EdgeId> edges_of(const Mesh& mesh, VertexId vertex) {
     const Face& face = mesh.face(f);
     edges.push_back(face.edges[corner_of(face, vertex)]);
   }
+  if (fan.empty()) return edges;
   const Face& last = mesh.face(fan.back());
   const EdgeId end = last.edges[(corner_of(last, vertex) + 2) % 3];
   if (end != edges.front()) edges.push_back(end);

@@ -8,8 +8,11 @@ namespace footwall::mesh {
 
 // The face on the other side of `edge`, kNone on the border.
 FaceId across(const Mesh& mesh, FaceId face, EdgeId edge);
-// The faces around a vertex, counter-clockwise; for a border vertex from border to border.
+// The faces around a vertex, counter-clockwise; for a border vertex from border to border; none for a lone
+// one.
 std::vector<FaceId> faces_of(const Mesh& mesh, VertexId vertex);
+// The same, behind what `fan` holds: no allocation where it has room.
+void append_faces_of(const Mesh& mesh, VertexId vertex, std::vector<FaceId>& fan);
 // The edges that end in a vertex, in the same order; a border vertex has one more of them than faces.
 std::vector<EdgeId> edges_of(const Mesh& mesh, VertexId vertex);
 // The edge between two vertices, kNone if there is none.

@@ -119,6 +119,56 @@ TEST(Mesh, IdsAreNeverUsedAgain) {
   EXPECT_FALSE(m.has_face(first));
 }
 
+TEST(Mesh, SplitsAnEdgeAndTheFacesBesideIt) {
+  Mesh m = sheet_mesh(1, 1);  // faces (0, 2, 3) and (0, 3, 1)
+  const EdgeId diagonal = edge_between(m, 0, 3);
+  const EdgeSplit inner = m.split_edge(diagonal, {0.5, 0.5, 1});
+  EXPECT_EQ(inner.vertex, 4);
+  EXPECT_EQ(m.face_count(), 4);
+  EXPECT_EQ(m.edge(diagonal).vertices, (std::array<VertexId, 2>{m.edge(diagonal).vertices[0], 4}));
+  EXPECT_FALSE(m.is_border_vertex(4));
+  EXPECT_EQ(faces_of(m, 4).size(), 4u);
+  EXPECT_TRUE(problems_of(m).empty());
+  const EdgeSplit border = m.split_edge(edge_between(m, 0, 1), {0, 0.5, 0});
+  EXPECT_EQ(std::count(border.faces.begin(), border.faces.end(), kNone), 1);
+  EXPECT_TRUE(m.is_border_vertex(border.vertex));
+  EXPECT_EQ(m.face_count(), 5);
+  EXPECT_TRUE(problems_of(m).empty());
+  const Snapshot before(m);
+  EXPECT_THROW(m.split_edge(99, {0, 0, 0}), Error);
+  EXPECT_THROW(m.split_edge(diagonal, {0, std::nan(""), 0}), Error);
+  EXPECT_EQ(Snapshot(m), before);
+}
+
+TEST(Mesh, RemovesTheFacesAroundAVertexAndNoOther) {
+  Mesh m = sheet_mesh(2, 2);
+  EXPECT_EQ(m.remove_faces_around(4).size(), 6u) << "the middle";
+  EXPECT_FALSE(m.has_vertex(4));
+  EXPECT_EQ(m.vertex_count(), 8);
+  EXPECT_TRUE(m.is_lone_vertex(0));
+  EXPECT_TRUE(m.is_lone_vertex(8));
+  EXPECT_EQ(m.fan_start(0), kNone);
+  EXPECT_TRUE(edges_of(m, 0).empty());
+  EXPECT_FALSE(m.is_border_vertex(0));
+  EXPECT_TRUE(problems_of(m).empty());
+  // A lone vertex takes part again.
+  m.add_face(edge_between(m, 1, 2), VertexId{0});
+  EXPECT_FALSE(m.is_lone_vertex(0));
+  EXPECT_TRUE(m.remove_faces_around(8).empty());
+  EXPECT_THROW(m.remove_faces_around(8), Error);
+  EXPECT_TRUE(problems_of(m).empty());
+}
+
+TEST(Mesh, EdgesOfAFaceFollowEachOther) {
+  const Mesh m = sheet_mesh(1, 1);
+  const Face& face = m.face(1);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(m.next_edge(1, face.edges[k]), face.edges[(k + 1) % 3]);
+    EXPECT_EQ(m.previous_edge(1, m.next_edge(1, face.edges[k])), face.edges[k]);
+  }
+  EXPECT_THROW(m.next_edge(1, edge_between(m, 0, 2)), Error) << "an edge of the other face";
+}
+
 TEST(Mesh, MovesAVertex) {
   Mesh m = sheet_mesh(1, 1);
   m.move_vertex(2, {4, 5, 6});
