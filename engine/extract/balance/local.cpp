@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "engine/extract/balance/start.h"
-#include "engine/voxelize/exact.h"
 #include "storage/base/error.h"
 
 namespace footwall::extract {
@@ -39,7 +38,7 @@ std::vector<int> balance_local(const BalanceInput& input, LocalMean which) {
     const FixedArea mean = which == LocalMean::kFinal ? start.mean : met / ranks;
     int& rank = start.responsible[n];
     if (area > 0 && load_of(rank) > mean + start.threshold) {
-      const survey::Box box = voxelize::bounding_voxels(input.faces[n].triangle);
+      const survey::Box box = voxel_box(input.faces[n]);
       int least = rank;
       const auto consider = [&](int other) {
         if (load_of(other) < load_of(least)) least = other;

@@ -7,7 +7,6 @@
 
 #include "engine/extract/balance/start.h"
 #include "engine/extract/balance/voxel_weights.h"
-#include "engine/voxelize/exact.h"
 #include "storage/base/error.h"
 
 namespace footwall::extract {
@@ -17,10 +16,53 @@ struct Weighed {
   std::int64_t weight = 0;
   std::uint32_t place = 0;  // by id
   std::uint32_t face = 0;
-  // Largest first out of a heap, ties by id.
-  friend bool operator<(const Weighed& a, const Weighed& b) {
-    return std::tie(a.weight, b.place) < std::tie(b.weight, a.place);
+};
+
+// Largest first, ties by id.
+bool before(const Weighed& a, const Weighed& b) {
+  return a.weight != b.weight ? a.weight > b.weight : a.place < b.place;
+}
+
+// The movable faces of an overloaded rank by falling weight. Only those that its surplus asks for are sorted;
+// what little is left in the end is looked up among the others one by one.
+class Falling {
+ public:
+  Falling() = default;
+  Falling(std::span<Weighed> faces, std::size_t sorted) : faces_(faces), sorted_(sorted) {
+    const auto middle = faces_.begin() + static_cast<std::ptrdiff_t>(sorted);
+    if (middle != faces_.end()) std::nth_element(faces_.begin(), middle, faces_.end(), before);
+    std::sort(faces_.begin(), middle, before);
   }
+
+  // The first face after `last` (null: of all) that weighs at most `limit`; null where there is none. `next`
+  // is the reader's place, 0 at first. Limits must not rise from call to call.
+  const Weighed* after(const Weighed* last, std::int64_t limit, std::size_t& next) const {
+    if (next < sorted_ && faces_[next].weight > limit) {
+      const auto end = faces_.begin() + static_cast<std::ptrdiff_t>(sorted_);
+      next = static_cast<std::size_t>(
+          std::partition_point(faces_.begin() + static_cast<std::ptrdiff_t>(next), end,
+                               [&](const Weighed& face) { return face.weight > limit; }) -
+          faces_.begin());
+    }
+    if (next < sorted_) return &faces_[next++];
+    const Weighed* best = nullptr;
+    for (const Weighed& face : faces_.subspan(sorted_)) {
+      if (face.weight <= limit && (last == nullptr || before(*last, face)) &&
+          (best == nullptr || before(face, *best))) {
+        best = &face;
+      }
+    }
+    return best;
+  }
+  // The face that will probably be asked for some calls later; null: not known.
+  const Weighed* ahead(std::size_t next) const {
+    constexpr std::size_t kAhead = 8;
+    return next + kAhead < sorted_ ? &faces_[next + kAhead] : nullptr;
+  }
+
+ private:
+  std::span<Weighed> faces_;
+  std::size_t sorted_ = 0;
 };
 
 struct Move {
@@ -40,19 +82,19 @@ class Plan {
     }
   }
 
-  // Gives away of `faces`, a heap, what takes the rank down to the mean and its slack.
-  void relieve(int giver, std::vector<Weighed>& faces) {
-    auto end = faces.end();
-    while (load(giver) > most_ && end != faces.begin()) {
-      std::pop_heap(faces.begin(), end);
-      const Weighed face = *--end;
-      if (face.weight > load(giver) - mean_) continue;
-      const int to = receiver(giver, face);
+  // Gives away of `faces` what takes the rank down to the mean and its slack.
+  void relieve(int giver, const Falling& faces) {
+    std::size_t next = 0;
+    const Weighed* face = nullptr;
+    while (load(giver) > most_ && (face = faces.after(face, load(giver) - mean_, next)) != nullptr) {
+      // Faces lie across memory: asked for before they are needed.
+      if (const Weighed* later = faces.ahead(next)) __builtin_prefetch(&input_.faces[later->face].triangle);
+      const int to = receiver(giver, *face);
       if (to < 0) continue;
-      load(giver) -= face.weight;
-      load(to) += face.weight;
-      moves_.push_back({face.face, giver, to});
-      moved_ += face.weight;
+      load(giver) -= face->weight;
+      load(to) += face->weight;
+      moves_.push_back({face->face, giver, to});
+      moved_ += face->weight;
     }
   }
 
@@ -69,7 +111,7 @@ class Plan {
   }
 
   int receiver(int giver, const Weighed& face) {
-    const survey::Box box = voxelize::bounding_voxels(input_.faces[face.face].triangle);
+    const survey::Box box = voxel_box(input_.faces[face.face]);
     if (const int owner = owner_with_room(box, face); owner >= 0) return owner;
     if (input_.cache != nullptr && !input_.cache->empty()) {
       for (int rank = 0; rank < input_.grid.ranks(); ++rank) {
@@ -147,86 +189,145 @@ class Plan {
 };
 
 // What the moves add to the messages of the busiest rank, at most: no voxel of a moved face is at its new
-// rank, and each rank with voxels of it becomes a new partner.
+// rank, and each rank with voxels of it becomes a new partner. Partners are only looked for where the answer,
+// whether it is below `gain`, depends on them.
 std::int64_t cost_of(const BalanceInput& input, const std::vector<Move>& moves,
-                     const std::vector<std::int64_t>& weights) {
+                     const std::vector<std::int64_t>& weights, std::int64_t gain) {
   const comm::RankGrid& grid = input.grid;
   std::vector<std::int64_t> voxels(static_cast<std::size_t>(grid.ranks()), 0);
-  std::vector<std::int64_t> partners(voxels.size(), 0);
   for (const Move& move : moves) {
     voxels[static_cast<std::size_t>(move.from)] += weights[move.face];
     voxels[static_cast<std::size_t>(move.to)] += weights[move.face];
-    for (const int owner : ranks_meeting(grid, voxelize::bounding_voxels(input.faces[move.face].triangle))) {
+  }
+  const std::int64_t most_partners = 2 * (std::int64_t{grid.ranks()} - 1);
+  const std::int64_t bound = *std::max_element(voxels.begin(), voxels.end()) * input.costs.remote +
+                             most_partners * input.costs.message;
+  if (bound < gain || moves.empty()) return bound;
+  std::vector<std::int64_t> partners(voxels.size(), 0);
+  for (const Move& move : moves) {
+    for (const int owner : ranks_meeting(grid, voxel_box(input.faces[move.face]))) {
       ++partners[static_cast<std::size_t>(owner)];
       ++partners[static_cast<std::size_t>(move.to)];
     }
   }
   std::int64_t most = 0;
   for (std::size_t rank = 0; rank < voxels.size(); ++rank) {
-    most = std::max(most,
-                    voxels[rank] * input.costs.remote +
-                        std::min<std::int64_t>(partners[rank], 2 * (grid.ranks() - 1)) * input.costs.message);
+    most = std::max(most, voxels[rank] * input.costs.remote +
+                              std::min(partners[rank], most_partners) * input.costs.message);
   }
   return most;
 }
 
-// The movable faces of each rank above the mean, as heaps.
-std::vector<std::vector<Weighed>> heaps_of(const BalanceInput& input, const std::vector<int>& ranks,
-                                           const std::vector<std::int64_t>& weights,
-                                           const std::vector<std::int64_t>& loads, std::int64_t mean) {
-  std::vector<std::vector<Weighed>> heaps(loads.size());
-  const std::vector<std::uint32_t> order = by_id(input.faces);
-  for (std::uint32_t place = 0; place < order.size(); ++place) {
-    const std::uint32_t n = order[place];
-    const auto rank = static_cast<std::size_t>(ranks[n]);
-    if (loads[rank] > mean && weights[n] > 0 && movable(input, n))
-      heaps[rank].push_back({weights[n], place, n});
+// Ranks, voxels and the order of ids in one pass, since reading many faces costs more than looking at them.
+struct Weights {
+  std::vector<int> start;
+  std::vector<std::int64_t> voxels;
+  std::vector<std::int64_t> loads;
+  std::int64_t mean = 0;
+  std::vector<std::uint32_t> by_id;  // empty where the faces stand by id already
+};
+
+Weights weights_of(const BalanceInput& input) {
+  const std::size_t count = input.faces.size();
+  require(input.voxels.empty() || input.voxels.size() == count, "voxels of every face");
+  Weights weights{std::vector<int>(count),
+                  std::vector<std::int64_t>(input.voxels.begin(), input.voxels.end()),
+                  std::vector<std::int64_t>(static_cast<std::size_t>(input.grid.ranks()), 0),
+                  0,
+                  {}};
+  weights.voxels.resize(count);
+  bool ordered = true;
+  constexpr std::size_t kBlock = 256;
+  for (std::size_t first = 0; first < count; first += kBlock) {
+    const std::size_t block = std::min(kBlock, count - first);
+    const std::span<const Face> faces = input.faces.subspan(first, block);
+    starting_ranks(input, first, std::span(weights.start).subspan(first, block));
+    if (input.voxels.empty())
+      voxel_weights(faces, input.grid.dims(), std::span(weights.voxels).subspan(first, block));
+    for (std::size_t n = first; n < first + block; ++n) {
+      weights.loads[static_cast<std::size_t>(weights.start[n])] += weights.voxels[n];
+      ordered = ordered && (n == 0 || id_of(input.faces[n - 1]) < id_of(input.faces[n]));
+    }
   }
-  for (auto& heap : heaps) std::make_heap(heap.begin(), heap.end());
-  return heaps;
+  if (!ordered) weights.by_id = by_id(input.faces);
+  weights.mean =
+      std::accumulate(weights.loads.begin(), weights.loads.end(), std::int64_t{0}) / input.grid.ranks();
+  return weights;
 }
+
+// The movable faces of the ranks above the mean, one rank after the other.
+class Stocks {
+ public:
+  Stocks(const BalanceInput& input, const Weights& weights) : falling_(weights.loads.size()) {
+    std::vector<std::size_t> next(weights.loads.size() + 1, 0);
+    const auto given = [&](std::size_t n) {
+      return weights.loads[static_cast<std::size_t>(weights.start[n])] > weights.mean &&
+             weights.voxels[n] > 0 && movable(input, n);
+    };
+    std::vector<std::int64_t> voxels(weights.loads.size(), 0);
+    for (std::size_t n = 0; n < weights.start.size(); ++n) {
+      const auto rank = static_cast<std::size_t>(weights.start[n]);
+      if (!given(n)) continue;
+      ++next[rank + 1];
+      voxels[rank] += weights.voxels[n];
+    }
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    const std::vector<std::size_t> begin = next;
+    faces_.resize(next.back());
+    for (std::uint32_t place = 0; place < weights.start.size(); ++place) {
+      const std::uint32_t n = weights.by_id.empty() ? place : weights.by_id[place];
+      if (given(n))
+        faces_[next[static_cast<std::size_t>(weights.start[n])]++] = {weights.voxels[n], place, n};
+    }
+    for (std::size_t rank = 0; rank < falling_.size(); ++rank) {
+      const std::size_t count = begin[rank + 1] - begin[rank];
+      if (count == 0) continue;
+      // The largest faces have more voxels than most: so many of them are enough.
+      const double part =
+          static_cast<double>(weights.loads[rank] - weights.mean) / static_cast<double>(voxels[rank]);
+      const auto enough = static_cast<std::size_t>(std::min(1.0, part) * static_cast<double>(count));
+      falling_[rank] = Falling(std::span(faces_).subspan(begin[rank], count), enough);
+    }
+  }
+  const Falling& of(int rank) const { return falling_[static_cast<std::size_t>(rank)]; }
+
+ private:
+  std::vector<Weighed> faces_;
+  std::vector<Falling> falling_;
+};
 
 }  // namespace
 
 MinimalMoves minimal_moves(const BalanceInput& input) {
-  require(input.voxels.empty() || input.voxels.size() == input.faces.size(), "voxels of every face");
+  Weights weights = weights_of(input);
+  const std::vector<std::int64_t>& loads = weights.loads;
   MinimalMoves done;
-  done.responsible = starting_ranks(input);
-  if (input.grid.ranks() == 1) return done;
-  const std::vector<std::int64_t> weights =
-      input.voxels.empty() ? voxel_weights(input.faces, input.grid.dims())
-                           : std::vector<std::int64_t>(input.voxels.begin(), input.voxels.end());
-  std::vector<std::int64_t> loads(static_cast<std::size_t>(input.grid.ranks()), 0);
-  for (std::size_t n = 0; n < weights.size(); ++n)
-    loads[static_cast<std::size_t>(done.responsible[n])] += weights[n];
-  const std::int64_t mean = std::accumulate(loads.begin(), loads.end(), std::int64_t{0}) / input.grid.ranks();
   std::vector<int> givers;
   for (int rank = 0; rank < input.grid.ranks(); ++rank) {
-    const std::int64_t load = loads[static_cast<std::size_t>(rank)];
-    if (load > mean) givers.push_back(rank);
-    done.least += std::max<std::int64_t>(0, load - mean);
+    const std::int64_t surplus = loads[static_cast<std::size_t>(rank)] - weights.mean;
+    if (surplus <= 0) continue;
+    givers.push_back(rank);
+    done.least += surplus;
   }
   std::stable_sort(givers.begin(), givers.end(), [&](int a, int b) {
     return loads[static_cast<std::size_t>(a)] > loads[static_cast<std::size_t>(b)];
   });
-  const auto heaps = heaps_of(input, done.responsible, weights, loads, mean);
-  const std::int64_t before = *std::max_element(loads.begin(), loads.end());
-
-  for (const std::int64_t part : {200, 20, 5, 2, 1}) {  // a slack of mean / part
-    Plan plan(input, loads, mean, mean / part);
-    for (const int giver : givers) {
-      std::vector<Weighed> faces = heaps[static_cast<std::size_t>(giver)];
-      plan.relieve(giver, faces);
-    }
-    const std::int64_t gain = input.costs.horizon * input.costs.voxel * (before - plan.largest_load());
-    const std::int64_t cost = cost_of(input, plan.moves(), weights);
+  const std::int64_t before_moves = *std::max_element(loads.begin(), loads.end());
+  const Stocks stocks(input, weights);
+  for (const int part : {200, 20, 5, 2, 1}) {  // a slack of mean / part
+    if (givers.empty() || input.grid.ranks() == 1) break;
+    Plan plan(input, loads, weights.mean, weights.mean / part);
+    for (const int giver : givers) plan.relieve(giver, stocks.of(giver));
+    const std::int64_t gain = input.costs.horizon * input.costs.voxel * (before_moves - plan.largest_load());
+    const std::int64_t cost = cost_of(input, plan.moves(), weights.voxels, gain);
     if (gain <= cost) continue;
-    for (const Move& move : plan.moves()) done.responsible[move.face] = move.to;
+    for (const Move& move : plan.moves()) weights.start[move.face] = move.to;
     done.moved = plan.moved();
     done.gain = gain;
     done.cost = cost;
     break;
   }
+  done.responsible = std::move(weights.start);
   return done;
 }
 

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "engine/extract/balance/none.h"
+#include "engine/voxelize/exact.h"
 #include "storage/base/error.h"
 
 namespace footwall::extract {
@@ -14,10 +15,7 @@ std::vector<std::uint32_t> by_id(std::span<const Face> faces) {
   require(faces.size() < std::numeric_limits<std::uint32_t>::max(), "fewer than 2^32 faces");
   std::vector<std::uint32_t> order(faces.size());
   std::iota(order.begin(), order.end(), std::uint32_t{0});
-  const auto before = [&](std::uint32_t a, std::uint32_t b) {
-    return std::tie(faces[a].fault, faces[a].owner, faces[a].n) <
-           std::tie(faces[b].fault, faces[b].owner, faces[b].n);
-  };
+  const auto before = [&](std::uint32_t a, std::uint32_t b) { return id_of(faces[a]) < id_of(faces[b]); };
   if (!std::is_sorted(order.begin(), order.end(), before)) {
     std::stable_sort(order.begin(), order.end(), before);
   }
@@ -25,18 +23,24 @@ std::vector<std::uint32_t> by_id(std::span<const Face> faces) {
 }
 
 std::vector<int> starting_ranks(const BalanceInput& input) {
+  std::vector<int> ranks(input.faces.size());
+  starting_ranks(input, 0, ranks);
+  return ranks;
+}
+
+void starting_ranks(const BalanceInput& input, std::size_t first, std::span<int> part) {
   require(input.previous.empty() || input.previous.size() == input.faces.size(),
           "a previous rank for every face");
-  std::vector<int> ranks(input.faces.size());
-  for (std::size_t n = 0; n < ranks.size(); ++n) {
+  for (std::size_t m = 0; m < part.size(); ++m) {
+    const std::size_t n = first + m;
+    int& rank = part[m];
     if (!movable(input, n)) {
       require(input.previous[n] < input.grid.ranks(), "a previous rank of the grid");
-      ranks[n] = input.previous[n];
+      rank = input.previous[n];
     } else {
-      ranks[n] = input.grid.owner(centroid_voxel(input.faces[n].triangle, input.grid.dims()));
+      rank = centroid_rank(input.faces[n].triangle, input.grid);
     }
   }
-  return ranks;
 }
 
 FixedArea threshold(const Choice& choice) {
@@ -55,6 +59,10 @@ Start start_of(const BalanceInput& input) {
   start.mean = std::accumulate(start.loads.begin(), start.loads.end(), FixedArea{0}) / input.grid.ranks();
   start.threshold = threshold(input.choice);
   return start;
+}
+
+survey::Box voxel_box(const Face& face) {
+  return voxelize::bounding_voxels(face.triangle);
 }
 
 std::vector<int> ranks_meeting(const comm::RankGrid& grid, const survey::Box& box) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -11,11 +12,17 @@
 
 namespace footwall::extract {
 
+inline auto id_of(const Face& face) {
+  return std::tie(face.fault, face.owner, face.n);
+}
+
 // The places of the faces in the order of their ids (fault, owner, n).
 std::vector<std::uint32_t> by_id(std::span<const Face> faces);
 
 // The rank from which each face starts: its centroid's, or the one that it keeps.
 std::vector<int> starting_ranks(const BalanceInput& input);
+// Of some faces, from place `first` on.
+void starting_ranks(const BalanceInput& input, std::size_t first, std::span<int> part);
 inline bool movable(const BalanceInput& input, std::size_t face) {
   return input.previous.empty() || input.previous[face] < 0;
 }
@@ -35,6 +42,8 @@ struct Start {
 // Throws kInternal where `previous` is not of the faces.
 Start start_of(const BalanceInput& input);
 
+// The bounding box of the face's voxels, also outside the survey.
+survey::Box voxel_box(const Face& face);
 // Ranks with a voxel in the box, ascending; none where the box lies outside the survey.
 std::vector<int> ranks_meeting(const comm::RankGrid& grid, const survey::Box& box);
 

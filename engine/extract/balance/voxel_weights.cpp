@@ -1,8 +1,10 @@
 #include "engine/extract/balance/voxel_weights.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "engine/voxelize/exact.h"
+#include "storage/base/error.h"
 
 namespace footwall::extract {
 namespace {
@@ -16,12 +18,18 @@ Corner corner(const survey::LatticePoint& p) {
 }  // namespace
 
 std::vector<std::int64_t> voxel_weights(std::span<const Face> faces, const survey::Index& dims) {
+  std::vector<std::int64_t> weights(faces.size());
+  voxel_weights(faces, dims, weights);
+  return weights;
+}
+
+void voxel_weights(std::span<const Face> faces, const survey::Index& dims, std::span<std::int64_t> weights) {
   constexpr std::int64_t kVoxel = survey::kLatticePerVoxel;
-  voxelize::ExactScratch scratch;
+  require(weights.size() == faces.size(), "a weight for every face");
+  std::optional<voxelize::ExactScratch> scratch;
   const survey::Box survey{{0, 0, 0}, dims};
-  std::vector<std::int64_t> weights;
-  weights.reserve(faces.size());
-  for (const Face& face : faces) {
+  for (std::size_t n = 0; n < faces.size(); ++n) {
+    const Face& face = faces[n];
     const std::array<Corner, 3> at{corner(face.triangle[0]), corner(face.triangle[1]),
                                    corner(face.triangle[2])};
     Corner lo{};
@@ -36,21 +44,25 @@ std::vector<std::int64_t> voxel_weights(std::span<const Face> faces, const surve
     }
     constexpr std::int64_t kWide = std::int64_t{1} << 30;  // products of larger edges might not fit
     if (!inside || sides >= kWide) {
-      weights.push_back(voxelize::count(face.triangle, survey, scratch));
+      if (!scratch) scratch.emplace();
+      weights[n] = voxelize::count(face.triangle, survey, *scratch);
       continue;
     }
     std::int64_t doubled = 0;  // twice A (|nx| + |ny| + |nz|), in lattice units
-    for (std::size_t n = 0; n < 3; ++n) {
-      const std::size_t a = (n + 1) % 3;
-      const std::size_t b = (n + 2) % 3;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t a = (c + 1) % 3;
+      const std::size_t b = (c + 2) % 3;
       const std::int64_t part =
           (at[1][a] - at[0][a]) * (at[2][b] - at[0][b]) - (at[1][b] - at[0][b]) * (at[2][a] - at[0][a]);
       doubled += part < 0 ? -part : part;
     }
+    // Cubes are closed and vertices on the lattice, so that a cube counts as 257 lattice steps wide.
+    constexpr std::int64_t kCube = kVoxel + 1;
     constexpr std::int64_t kDoubledVoxel = 2 * kVoxel * kVoxel;
-    weights.push_back((doubled + 2 * kVoxel * sides + kDoubledVoxel + kDoubledVoxel / 2) / kDoubledVoxel);
+    const std::int64_t sum =
+        doubled + doubled / kVoxel + 2 * kCube * kCube * sides / kVoxel + 2 * kCube * kCube * kCube / kVoxel;
+    weights[n] = (sum + kDoubledVoxel / 2) / kDoubledVoxel;
   }
-  return weights;
 }
 
 }  // namespace footwall::extract

@@ -235,7 +235,7 @@ TEST(ExtractErrors, WrongNamesAreWrongUsageOnAllRanks) {
   std::vector<Options> wrong(6);
   wrong[0].exchange = "block=4";
   wrong[1].exchange = "guess";
-  wrong[2].balance = "manhattan";
+  wrong[2].balance = "sideways";
   wrong[3].voxelizer = "gpu";
   wrong[4].compute = {"lot"};
   wrong[5].threads = 0;

@@ -43,7 +43,8 @@ TEST(FixedArea, IsHalfTheRootOfTheSquareRoundedDown) {
 
 TEST(FixedArea, HasALargestValueSoThatSumsFit) {
   constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
-  const survey::LatticeTriangle huge{{{-kMost, -kMost, kMost}, {kMost, -kMost, -kMost}, {-kMost, kMost, -kMost}}};
+  const survey::LatticeTriangle huge{
+      {{-kMost, -kMost, kMost}, {kMost, -kMost, -kMost}, {-kMost, kMost, -kMost}}};
   EXPECT_EQ(fixed_area(huge), FixedArea{1} << 61);
   std::vector<Face> faces(1000);
   for (Face& face : faces) face.triangle = huge;
@@ -75,8 +76,10 @@ TEST(VoxelWeights, AreNearTheCountInsideAndTheCountBeyond) {
     const std::int64_t count = voxelize::count(faces[n].triangle, survey, scratch);
     const survey::Box box = voxelize::bounding_voxels(faces[n].triangle);
     if (survey::intersection(survey::grown(box, 1), survey) != survey::grown(box, 1)) {
-      beyond += survey::intersection(box, survey) != box ? 1 : 0;
-      if (survey::intersection(box, survey) != box) EXPECT_EQ(weights[n], count);
+      if (survey::intersection(box, survey) != box) {
+        ++beyond;
+        EXPECT_EQ(weights[n], count);
+      }
     } else {
       EXPECT_NEAR(static_cast<double>(weights[n]), static_cast<double>(count),
                   6 + 0.12 * static_cast<double>(count));

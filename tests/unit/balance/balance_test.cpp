@@ -11,9 +11,9 @@
 #include "engine/extract/registry.h"
 #include "engine/verify/balance_by_pseudocode.h"
 #include "engine/voxelize/exact.h"
+#include "rounds.h"
 #include "storage/base/error.h"
 #include "unit/balance/random_faces.h"
-#include "rounds.h"
 
 namespace footwall::extract {
 namespace {
@@ -28,7 +28,10 @@ std::vector<int> balanced(const std::string& text, const comm::RankGrid& grid, s
 
 verify::BalanceCase case_of(const comm::RankGrid& grid, std::span<const Face> faces,
                             const std::vector<int>& previous, double d) {
-  verify::BalanceCase made{grid.ranks(), fixed_areas(faces), balanced("none", grid, faces, previous), {},
+  verify::BalanceCase made{grid.ranks(),
+                           fixed_areas(faces),
+                           balanced("none", grid, faces, previous),
+                           {},
                            static_cast<std::int64_t>(d * kAreaPerVoxel2)};
   for (const int rank : previous) made.fixed.push_back(rank >= 0);
   return made;
@@ -37,9 +40,8 @@ verify::BalanceCase case_of(const comm::RankGrid& grid, std::span<const Face> fa
 bool meets(const comm::RankGrid& grid, int rank, const Face& face) {
   const survey::Box box = voxelize::bounding_voxels(face.triangle);
   const std::vector<survey::Box> boxes = grid.boxes(rank);
-  return std::any_of(boxes.begin(), boxes.end(), [&](const survey::Box& own) {
-    return !survey::intersection(own, box).empty();
-  });
+  return std::any_of(boxes.begin(), boxes.end(),
+                     [&](const survey::Box& own) { return !survey::intersection(own, box).empty(); });
 }
 
 TEST(Balance, AgreesWithThePseudocode) {
@@ -47,7 +49,8 @@ TEST(Balance, AgreesWithThePseudocode) {
   const auto one_of = [&](const auto& list) { return list[random() % list.size()]; };
   int moved = 0;
   for (int round = 0; round < rounds(150); ++round) {
-    const survey::Index dims = one_of(std::vector<survey::Index>{{40, 30, 20}, {7, 90, 5}, {3, 2, 9}, {1, 1, 1}});
+    const survey::Index dims =
+        one_of(std::vector<survey::Index>{{40, 30, 20}, {7, 90, 5}, {3, 2, 9}, {1, 1, 1}});
     const int ranks = one_of(std::vector<int>{1, 2, 3, 4, 7, 16, 40});
     const auto pillars = one_of(std::vector<std::array<int, 2>>{{1, 1}, {1, 1}, {2, 2}, {3, 1}});
     const comm::RankGrid grid(dims, ranks, pillars);
@@ -55,13 +58,15 @@ TEST(Balance, AgreesWithThePseudocode) {
     std::vector<int> previous;
     if (round % 3 == 2) {
       for (std::size_t n = 0; n < faces.size(); ++n) {
-        previous.push_back(random() % 2 == 0 ? -1 : static_cast<int>(random() % static_cast<unsigned>(ranks)));
+        previous.push_back(random() % 2 == 0 ? -1
+                                             : static_cast<int>(random() % static_cast<unsigned>(ranks)));
       }
     }
     const double d = one_of(std::vector<double>{0, 0, 0.25, 7, 60.5, 1e9});
     const int tau = one_of(std::vector<int>{-1, 1, 2, 5});
     const verify::BalanceCase given = case_of(grid, faces, previous, d);
-    SCOPED_TRACE(fmt::format("round {}: {} faces, {} ranks, d {}, tau {}", round, faces.size(), ranks, d, tau));
+    SCOPED_TRACE(
+        fmt::format("round {}: {} faces, {} ranks, d {}, tau {}", round, faces.size(), ranks, d, tau));
 
     const std::vector<int> global = balanced(fmt::format("global={}", d), grid, faces, previous);
     EXPECT_EQ(global, verify::global_by_pseudocode(given));
@@ -107,7 +112,9 @@ TEST(Balance, UnchangedFacesKeepTheirRankAndEveryOtherGetsOne) {
     const std::vector<int> ranks = balanced(std::string(strategy.name), grid, faces, previous);
     ASSERT_EQ(ranks.size(), faces.size());
     for (std::size_t n = 0; n < faces.size(); ++n) {
-      if (previous[n] >= 0) EXPECT_EQ(ranks[n], previous[n]) << strategy.name;
+      if (previous[n] >= 0) {
+        EXPECT_EQ(ranks[n], previous[n]) << strategy.name;
+      }
       EXPECT_TRUE(ranks[n] >= 0 && ranks[n] < 4);
     }
   }
@@ -115,7 +122,10 @@ TEST(Balance, UnchangedFacesKeepTheirRankAndEveryOtherGetsOne) {
 
 // A flat square of side x side voxels at (i, j), as half of it.
 Face face_at(int n, int i, int j, int side) {
-  return {1, 1, n, {{{256 * i, 256 * j, 512}, {256 * (i + side), 256 * j, 512}, {256 * i, 256 * (j + side), 512}}}};
+  return {1,
+          1,
+          n,
+          {{{256 * i, 256 * j, 512}, {256 * (i + side), 256 * j, 512}, {256 * i, 256 * (j + side), 512}}}};
 }
 
 TEST(Balance, LocalMayUseRanksThatHaveReceivedTheVoxels) {
@@ -136,8 +146,9 @@ TEST(Balance, SaysWhichParametersItTakes) {
     const Choice choice = parse_choice(good);
     EXPECT_NO_THROW(balance_strategy(choice.name).check(choice)) << good;
   }
-  for (const char* bad : {"none=1", "minimal=1", "global=-1", "global=x", "global=1,2", "local=1,sideways",
-                          "local=cache", "manhattan=1,0", "manhattan=1,1.5", "manhattan=1,2,3", "global=nan"}) {
+  for (const char* bad :
+       {"none=1", "minimal=1", "global=-1", "global=x", "global=1,2", "local=1,sideways", "local=cache",
+        "manhattan=1,0", "manhattan=1,1.5", "manhattan=1,2,3", "global=nan"}) {
     Options options;
     options.balance = bad;
     try {
