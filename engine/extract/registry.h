@@ -14,7 +14,7 @@ struct Row {
 };
 
 std::span<const Row> exchange_rows();   // auto and those of exchange/strategies.cpp
-std::span<const Row> balance_rows();    // none; minimal, global, local, manhattan are not built
+std::span<const Row> balance_rows();    // those of balance/strategies.cpp
 std::span<const Row> voxelizer_rows();  // those of engine/voxelize/registry.h
 std::span<const Row> statistic_rows();  // those of computations.h
 

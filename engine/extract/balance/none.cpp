@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/extract/balance/start.h"
+
 namespace footwall::extract {
 namespace {
 
@@ -18,7 +20,25 @@ std::int64_t rounded_third(std::int64_t sum) {
   return quotient;
 }
 
+// The rank coordinate of a line. In 32 bits, and without a second division where nothing is interleaved:
+// divisions are most of what a decision costs.
+std::uint32_t place_of(std::int64_t line, std::int64_t lines, int parts) {
+  const std::uint32_t pillar = static_cast<std::uint32_t>(line) / static_cast<std::uint32_t>(lines);
+  const auto along = static_cast<std::uint32_t>(parts);
+  return pillar < along ? pillar : pillar % along;
+}
+
 }  // namespace
+
+int centroid_rank(const survey::LatticeTriangle& t, const comm::RankGrid& grid) {
+  const std::int64_t i =
+      std::clamp<std::int64_t>(rounded_third(std::int64_t{t[0].i} + t[1].i + t[2].i), 0, grid.dims()[0] - 1);
+  const std::int64_t j =
+      std::clamp<std::int64_t>(rounded_third(std::int64_t{t[0].j} + t[1].j + t[2].j), 0, grid.dims()[1] - 1);
+  const auto [rows, columns] = grid.parts();
+  return static_cast<int>(place_of(i, grid.lines()[0], rows)) * columns +
+         static_cast<int>(place_of(j, grid.lines()[1], columns));
+}
 
 survey::Index centroid_voxel(const survey::LatticeTriangle& t, const survey::Index& dims) {
   const survey::Index sums{std::int64_t{t[0].i} + t[1].i + t[2].i, std::int64_t{t[0].j} + t[1].j + t[2].j,
@@ -31,11 +51,7 @@ survey::Index centroid_voxel(const survey::LatticeTriangle& t, const survey::Ind
 }
 
 std::vector<int> balance_none(const BalanceInput& input) {
-  const comm::RankGrid& grid = input.grid;
-  std::vector<int> ranks(input.faces.size());
-  std::transform(input.faces.begin(), input.faces.end(), ranks.begin(),
-                 [&](const Face& face) { return grid.owner(centroid_voxel(face.triangle, grid.dims())); });
-  return ranks;
+  return starting_ranks(input);
 }
 
 void check_none(const Choice& choice) {

@@ -10,6 +10,9 @@ namespace footwall::extract {
 // survey.
 survey::Index centroid_voxel(const survey::LatticeTriangle& triangle, const survey::Index& dims);
 
+// The owner of that voxel.
+int centroid_rank(const survey::LatticeTriangle& triangle, const comm::RankGrid& grid);
+
 std::vector<int> balance_none(const BalanceInput& input);
 void check_none(const Choice& choice);
 

@@ -2,6 +2,10 @@
 #include <array>
 
 #include "engine/extract/balance/balance.h"
+#include "engine/extract/balance/global.h"
+#include "engine/extract/balance/local.h"
+#include "engine/extract/balance/manhattan.h"
+#include "engine/extract/balance/minimal.h"
 #include "engine/extract/balance/none.h"
 #include "storage/base/error.h"
 
@@ -11,10 +15,15 @@ namespace {
 constexpr std::array kStrategies{
     BalanceStrategy{"none", "the rank of a face's centroid is responsible for it", &balance_none,
                     &check_none},
-    BalanceStrategy{"minimal", "moves as few voxels as an even load needs", nullptr, nullptr},
-    BalanceStrategy{"global", "faces of overloaded ranks go to any other", nullptr, nullptr},
-    BalanceStrategy{"local", "faces of overloaded ranks go to neighbours", nullptr, nullptr},
-    BalanceStrategy{"manhattan", "faces go to the nearest rank with room", nullptr, nullptr}};
+    BalanceStrategy{"minimal", "moves as few voxels as an even load needs, where that pays", &balance_minimal,
+                    &check_minimal},
+    BalanceStrategy{"global", "=D: faces of ranks loaded above the mean + D voxel^2 go to the emptiest ranks",
+                    &balance_global, &check_global},
+    BalanceStrategy{"local",
+                    "=D[,cache]: such faces go to ranks that own (or have received) voxels near them",
+                    &balance_local, &check_local},
+    BalanceStrategy{"manhattan", "=D[,TAU]: such faces go to the nearest ranks with room, at most TAU away",
+                    &balance_manhattan, &check_manhattan}};
 
 }  // namespace
 

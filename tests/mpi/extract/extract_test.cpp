@@ -133,7 +133,7 @@ TEST(ExtractErrors, WrongNamesAreWrongUsageOnAllRanks) {
   std::vector<Options> wrong(6);
   wrong[0].exchange = "block=0";
   wrong[1].exchange = "guess";
-  wrong[2].balance = "manhattan";
+  wrong[2].balance = "sideways";
   wrong[3].voxelizer = "gpu";
   wrong[4].compute = {"lot"};
   wrong[5].threads = 0;
