@@ -7,9 +7,10 @@
 // combine as q3 q2 q1; line 14 of E.3.1 reads v1' = v1. Half angles come from products and square roots, so
 // that every processor finds the same voxels.
 //
-// As printed, the loops stop before the pixels of the two rasterized edges; these are not emitted, and a
-// triangle without area, or less than a pixel high, has no voxels at all. Neighbouring pixels may round to
-// the same voxel and leave another out: `footwall bench voxelize` counts both.
+// Pixels that rounding carries out of the triangle's bounding box are dropped. As printed, the loops stop
+// before the pixels of the two rasterized edges; these are not emitted, and a triangle without area, or less
+// than a pixel high, has no voxels at all. Neighbouring pixels may round to the same voxel and leave another
+// out: `footwall bench voxelize` counts both.
 #pragma once
 #include <memory>
 

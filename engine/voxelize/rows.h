@@ -40,7 +40,8 @@ using Voxel = std::array<std::int32_t, 3>;
 class Voxelizer {
  public:
   virtual ~Voxelizer() = default;
-  // Every voxel of the triangle that lies in clip, each exactly once, in canonical order: ascending v, then
+  // Every voxel of the triangle that lies in clip, each exactly once; none of them lies outside
+  // bounding_voxels() (exact.h). They come in canonical order: ascending v, then
   // u, then w, where the axes depend on the triangle alone. A row may hold empty columns, and several rows
   // may have the same v (the later one begins at the column where the other ends, or behind it). The union
   // over disjoint boxes is the result for their union, and the order in a box is that of the whole with the
