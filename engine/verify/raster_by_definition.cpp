@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -69,8 +70,8 @@ std::set<Pixel> line(Pixel from, Pixel to) {
   const std::int64_t rise = std::min(dx, dy);
   std::set<Pixel> pixels;
   for (std::int64_t n = 0; n <= run; ++n) {
-    std::int64_t risen = 0;
-    while (run > 0 && 2 * rise * n > run * (2 * risen + 1)) ++risen;
+    // The least r with n rise / run <= r + 1/2.
+    const std::int64_t risen = run == 0 ? 0 : std::max<std::int64_t>(0, (2 * rise * n + run - 1) / (2 * run));
     const std::int64_t along_x = steep ? risen : n;
     const std::int64_t along_y = steep ? n : risen;
     pixels.insert({from.first + (to.first < from.first ? -along_x : along_x),
@@ -211,11 +212,12 @@ std::vector<survey::Index> kaufman_by_definition(const survey::LatticeTriangle& 
   const auto rounded = [](std::int64_t lattice) {
     return static_cast<std::int64_t>(std::floor(static_cast<Real>(lattice) / 256 + 0.5L));
   };
-  std::set<Pixel> edges;
+  std::map<std::int64_t, std::set<std::int64_t>> edges;  // the u of a row's edge pixels
   for (std::size_t n = 0; n < 3; ++n) {
     const Corner& a = p[n];
     const Corner& b = p[(n + 1) % 3];
-    edges.merge(line({rounded(a[u]), rounded(a[v])}, {rounded(b[u]), rounded(b[v])}));
+    for (const Pixel& pixel : line({rounded(a[u]), rounded(a[v])}, {rounded(b[u]), rounded(b[v])}))
+      edges[pixel.second].insert(pixel.first);
   }
   const Int128 at_corner = normal[0] * p[0][0] + normal[1] * p[0][1] + normal[2] * p[0][2];
 
@@ -225,16 +227,13 @@ std::vector<survey::Index> kaufman_by_definition(const survey::LatticeTriangle& 
     for (std::int64_t j = inside.lo[1]; j < inside.hi[1]; ++j) {
       for (std::int64_t k = inside.lo[2]; k < inside.hi[2]; ++k) {
         const survey::Index voxel = {i, j, k};
-        const bool behind_one = std::any_of(edges.begin(), edges.end(), [&](const Pixel& e) {
-          return e.second == voxel[v] && e.first <= voxel[u];
-        });
-        const bool before_one = std::any_of(edges.begin(), edges.end(), [&](const Pixel& e) {
-          return e.second == voxel[v] && e.first >= voxel[u];
-        });
+        const auto row = edges.find(voxel[v]);
+        if (row == edges.end()) continue;
+        const bool between = *row->second.begin() <= voxel[u] && voxel[u] <= *row->second.rbegin();
         // Above the plane by at most half a voxel, or below by less.
         const Int128 below = at_corner - 256 * (normal[0] * i + normal[1] * j + normal[2] * k);
         const bool nearest = below >= -128 * normal[w] && below < 128 * normal[w];
-        if (behind_one && before_one && nearest) voxels.push_back(voxel);
+        if (between && nearest) voxels.push_back(voxel);
       }
     }
   }

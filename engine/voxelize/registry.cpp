@@ -42,7 +42,7 @@ constexpr std::array kMethods = {
     Method{"exact", "every voxel whose closed cube meets the closed triangle, in integers", true,
            &make<Exact>},
     Method{"rotated", "rotation into the plane z = 0 and line rasterization, after Larsen", false,
-           &make_rotated<RotatedLoop::kLc>, kRotatedLoops},
+           &make_rotated<RotatedLoop::kLc>, kRotatedLoops, true},
     Method{"kaufman", "the bounding plane scanned from edge to edge, after Kaufman; thin", false,
            &make<Kaufman>},
     Method{.name = "gpu",

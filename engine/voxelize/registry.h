@@ -24,6 +24,7 @@ struct Method {
   bool exact;
   MakeVoxelizer make;                   // null: known by name, not built
   std::span<const Variant> variants{};  // what may follow "="; none: nothing may
+  bool threads_inside = false;          // whether threads share out one triangle
   std::string_view reason{};            // why it is not built
 };
 

@@ -7,14 +7,18 @@ class ListingSink final : public RowSink {
  public:
   explicit ListingSink(std::vector<Voxel>& out) : out_(out) {}
   void row(const Row& row) override {
+    const auto u = static_cast<std::size_t>(row.u_axis);
+    const auto w = static_cast<std::size_t>(row.w_axis);
+    const std::size_t before = out_.size();
+    out_.resize(before + static_cast<std::size_t>(voxels_in(row)));
+    Voxel* next = out_.data() + before;
     Voxel voxel{};
     voxel[static_cast<std::size_t>(row.v_axis)] = static_cast<std::int32_t>(row.v);
-    for (std::size_t n = 0; n < row.lo.size(); ++n) {
-      voxel[static_cast<std::size_t>(row.u_axis)] =
-          static_cast<std::int32_t>(row.u0 + static_cast<std::int64_t>(n));
-      for (std::int64_t w = row.lo[n]; w <= row.hi[n]; ++w) {
-        voxel[static_cast<std::size_t>(row.w_axis)] = static_cast<std::int32_t>(w);
-        out_.push_back(voxel);
+    voxel[u] = static_cast<std::int32_t>(row.u0);
+    for (std::size_t n = 0; n < row.lo.size(); ++n, ++voxel[u]) {
+      for (std::int64_t at = row.lo[n]; at <= row.hi[n]; ++at) {
+        voxel[w] = static_cast<std::int32_t>(at);
+        *next++ = voxel;
       }
     }
   }

@@ -22,5 +22,6 @@ void add_pack(console::Program& program);
 void add_relink(console::Program& program);
 void add_doctor(console::Program& program);
 void add_bench(console::Program& program);
+void add_bench_voxelize(console::Program& program, CLI::App* group);
 
 }  // namespace footwall::commands
