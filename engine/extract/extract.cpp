@@ -160,7 +160,6 @@ void validate(const Options& options) {
   find_row(balance_rows(), "balance", balance.name);
   balance_strategy(balance.name).check(balance);
   for (const std::string& name : options.compute) computation(name);
-  find_row(voxelizer_rows(), "voxelizer", options.voxelizer);
   voxelize::make_voxelizer(options.voxelizer);
   const std::vector<const Computation*> whole = whole_face_computations(options);
   if (!whole.empty() && exchange.name != "auto" && !exchange_strategy(exchange.name).moves_voxels) {

@@ -13,8 +13,6 @@
 #include <mutex>
 #include <utility>
 
-#include "engine/verify/voxel_oracle.h"
-#include "engine/voxelize/exact.h"
 #include "engine/voxelize/registry.h"
 #include "engine/voxelize/simd.h"
 #include "storage/base/error.h"
@@ -25,20 +23,12 @@
 namespace footwall::tasks {
 namespace {
 
-using survey::Box;
 using survey::Index;
 using survey::LatticeTriangle;
 
 constexpr std::size_t kLargestFile = std::size_t{1} << 30;
 constexpr int kMostThreads = 1024;
 constexpr int kMostRepeats = 10000;
-constexpr std::int64_t kFar = std::int64_t{1} << 24;
-constexpr Box kEverywhere = {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
-
-constexpr std::size_t kCheckedTriangles = 64;
-constexpr std::int64_t kWholeTriangle = 40000;  // cubes in a bounding box that is checked whole
-constexpr std::int64_t kWindow = 8;             // half the side of the boxes that are checked of larger ones
-
 std::vector<std::string_view> fields_of(std::string_view line) {
   for (const char separator : {',', ';'}) {
     if (line.find(separator) != std::string_view::npos) return text::split(line, separator);
@@ -110,50 +100,6 @@ class ListingSink final : public voxelize::RowSink {
   std::vector<Index> voxels;
 };
 
-// The boxes in which a triangle's answer is compared with the definition: all of it, or around its corners
-// and middle.
-std::vector<Box> boxes_to_check(const LatticeTriangle& t) {
-  const Box whole = survey::grown(voxelize::bounding_voxels(t), 1);
-  if (whole.size(0) < 4096 && whole.size(1) < 4096 && whole.size(2) < 4096 &&
-      whole.count() <= kWholeTriangle) {
-    return {whole};
-  }
-  const auto around = [](std::int64_t i, std::int64_t j, std::int64_t k) {
-    const Index at = {i / survey::kLatticePerVoxel, j / survey::kLatticePerVoxel,
-                      k / survey::kLatticePerVoxel};
-    return survey::grown({at, at}, kWindow);
-  };
-  std::vector<Box> boxes;
-  Index sum = {0, 0, 0};
-  for (const auto& p : t) {
-    boxes.push_back(around(p.i, p.j, p.k));
-    sum = {sum[0] + p.i, sum[1] + p.j, sum[2] + p.k};
-  }
-  boxes.push_back(around(sum[0] / 3, sum[1] / 3, sum[2] / 3));
-  return boxes;
-}
-
-void check_answer(const std::vector<LatticeTriangle>& triangles, voxelize::Voxelizer& voxelizer,
-                  BenchVoxelizeResult& result, const JobContext& job) {
-  const std::size_t sample = std::min(triangles.size(), kCheckedTriangles);
-  for (std::size_t s = 0; s < sample; ++s) {
-    job.check();
-    const std::size_t n = s * triangles.size() / sample;
-    for (const Box& box : boxes_to_check(triangles[n])) {
-      ListingSink sink;
-      voxelizer.rows(triangles[n], box, sink);
-      std::sort(sink.voxels.begin(), sink.voxels.end());
-      if (sink.voxels != verify::voxels_by_definition(triangles[n], box)) {
-        throw Error(ErrorCode::kInternal,
-                    fmt::format("the voxels of triangle {} are not those of the definition", n),
-                    "please report this with the file of triangles");
-      }
-      result.checked_cubes += box.count();
-    }
-    ++result.checked_triangles;
-  }
-}
-
 // Counts of all triangles; the threads share them out dynamically. One voxelizer for each thread.
 std::vector<std::int64_t> count_all(const std::vector<LatticeTriangle>& triangles,
                                     std::vector<std::unique_ptr<voxelize::Voxelizer>>& voxelizers,
@@ -173,7 +119,7 @@ std::vector<std::int64_t> count_all(const std::vector<LatticeTriangle>& triangle
         if (first >= triangles.size()) break;
         job.check();
         for (std::size_t n = first; n < std::min(first + kShare, triangles.size()); ++n) {
-          voxelizers[thread]->rows(triangles[n], kEverywhere, sink);
+          voxelizers[thread]->rows(triangles[n], kAllVoxels, sink);
           counts[n] = sink.take();
         }
       }
@@ -220,7 +166,7 @@ void write_list(const std::filesystem::path& path, const std::vector<LatticeTria
   for (std::size_t n = 0; n < triangles.size(); ++n) {
     job.check();
     sink.begin(n);
-    voxelizer.rows(triangles[n], kEverywhere, sink);
+    voxelizer.rows(triangles[n], kAllVoxels, sink);
   }
   out.close();
   if (!out)
@@ -285,7 +231,9 @@ BenchVoxelizeResult bench_voxelize(const BenchVoxelizeOptions& options, const Jo
   result.threads = options.threads;
   result.triangles = static_cast<std::int64_t>(triangles.size());
   job.report(0, "check");
-  check_answer(triangles, *voxelizers.front(), result, job);
+  result.check = check_voxelizer(options.voxelizer, triangles, job);
+  result.exact = voxelize::method_of(options.voxelizer).exact;
+  if (!result.exact) result.differences = differences_from_exact(options.voxelizer, triangles, 0, job);
   result.counts = count_all(triangles, voxelizers, job);  // also warms caches and buffers
   for (const std::int64_t count : result.counts) result.voxels += count;
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/tasks/detail/voxelizer_check.h"
 #include "storage/base/job_context.h"
 #include "storage/survey/points.h"
 
@@ -38,9 +39,10 @@ struct BenchVoxelizeResult {
   double seconds = 0;                // their median
   double seconds_min = 0;
   double seconds_max = 0;
-  double voxels_per_second = 0;        // by the median; 0 where nothing was to do
-  std::int64_t checked_triangles = 0;  // compared voxel by voxel with the definition before the clock ran
-  std::int64_t checked_cubes = 0;      // voxels tested one by one for that
+  double voxels_per_second = 0;  // by the median; 0 where nothing was to do
+  VoxelizerCheck check;          // before the clock ran
+  bool exact = true;             // whether the method is to find what `exact` finds
+  VoxelDifferences differences;  // of all triangles where it is not; zeros where it is
 };
 
 // Throws Error kUsage for options out of range or a voxelizer that is not built, kInternal if the answer is

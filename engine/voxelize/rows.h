@@ -1,9 +1,11 @@
 // What every voxelizer emits: rows of column spans, consumed while they are in cache; coordinates are never
 // listed.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "storage/survey/box.h"
 #include "storage/survey/points.h"
@@ -31,13 +33,31 @@ class RowSink {
   virtual void row(const Row& row) = 0;
 };
 
+// A voxel's index (inline, crossline, sample) in 12 bytes, for lists of many.
+using Voxel = std::array<std::int32_t, 3>;
+
 // A voxelization method with the buffers it works in: one object per thread, used again for every triangle.
 class Voxelizer {
  public:
   virtual ~Voxelizer() = default;
-  // Every voxel of the triangle that lies in clip, each exactly once; rows by ascending v, columns by
-  // ascending u. The union over disjoint boxes is the result for their union.
+  // Every voxel of the triangle that lies in clip, each exactly once; none of them lies outside
+  // bounding_voxels() (exact.h). They come in canonical order: ascending v, then
+  // u, then w, where the axes depend on the triangle alone. A row may hold empty columns, and several rows
+  // may have the same v (the later one begins at the column where the other ends, or behind it). The union
+  // over disjoint boxes is the result for their union, and the order in a box is that of the whole with the
+  // others left out. Throws what the sink throws, and std::bad_alloc.
   virtual void rows(const survey::LatticeTriangle& triangle, const survey::Box& clip, RowSink& sink) = 0;
+
+  // The same voxels, each once, in the order in which the method itself walks over the face, which is what a
+  // one-dimensional transform of the face's values needs (seed 004, section 5.2.1): for `rotated` the raster
+  // along the longest edge, for a method that does not override this the canonical order. `out` is replaced.
+  virtual void raster(const survey::LatticeTriangle& triangle, const survey::Box& clip,
+                      std::vector<Voxel>& out);
+
+  // Every voxel as often as the method comes upon it, in its own order; the same as raster() for a method
+  // that meets none twice. For measuring; `out` is replaced.
+  virtual void visits(const survey::LatticeTriangle& triangle, const survey::Box& clip,
+                      std::vector<Voxel>& out);
 };
 
 // The number of voxels in a row's columns.

@@ -23,5 +23,6 @@ void add_relink(console::Program& program);
 void add_doctor(console::Program& program);
 void add_workload(console::Program& program);  // workload make, workload run
 void add_bench(console::Program& program);
+void add_bench_voxelize(console::Program& program, CLI::App* group);
 
 }  // namespace footwall::commands

@@ -11,6 +11,18 @@ std::int64_t extent(const Corners& p, int axis) {
 
 }  // namespace
 
+Axes axes_of(const Corners& corners, const std::array<Int128, 3>& normal) {
+  const bool has_plane = normal[0] != 0 || normal[1] != 0 || normal[2] != 0;
+  int w = 0;
+  for (int axis = 1; axis < 3; ++axis) {
+    const bool longer = has_plane ? magnitude(normal[axis]) > magnitude(normal[w])
+                                  : extent(corners, axis) > extent(corners, w);
+    if (longer) w = axis;
+  }
+  const int u = w == 2 ? 1 : 2;
+  return {u, 3 - u - w, w};
+}
+
 survey::Box bounding_voxels(const Corners& p) {
   constexpr std::int64_t kHalf = survey::kLatticePerVoxel / 2;
   survey::Box box;
@@ -33,15 +45,10 @@ Setup setup_of(const survey::LatticeTriangle& triangle, const survey::Box& clip)
 
   const auto normal = normal_of(corners);
   setup.has_plane = normal[0] != 0 || normal[1] != 0 || normal[2] != 0;
-  int w = 0;
-  for (int axis = 1; axis < 3; ++axis) {
-    const bool longer = setup.has_plane ? magnitude(normal[axis]) > magnitude(normal[w])
-                                        : extent(corners, axis) > extent(corners, w);
-    if (longer) w = axis;
-  }
+  const auto [u, v, w] = axes_of(corners, normal);
+  setup.u_axis = u;
+  setup.v_axis = v;
   setup.w_axis = w;
-  setup.u_axis = w == 2 ? 1 : 2;
-  setup.v_axis = 3 - setup.u_axis - w;
   setup.u_of_v = edge_bounds(corners, setup.v_axis, setup.u_axis);
   setup.w_of_u = edge_bounds(corners, setup.u_axis, w);
   setup.w_of_v = edge_bounds(corners, setup.v_axis, w);

@@ -9,6 +9,15 @@
 
 namespace footwall::voxelize::detail {
 
+struct Axes {
+  int u = 2;
+  int v = 1;
+  int w = 0;
+};
+// w is the axis along which the normal is longest (the lowest number among equals; without area the axis of
+// the greatest extent), u the sample axis unless that is w, then the crossline axis.
+Axes axes_of(const Corners& corners, const std::array<Int128, 3>& normal);
+
 struct Setup {
   int u_axis = 2;
   int v_axis = 1;

@@ -77,7 +77,7 @@ TEST_F(BenchVoxelize, CountsEachTriangleWhateverTheThreads) {
   EXPECT_EQ(one.counts[2], 55 + 9);
   EXPECT_EQ(one.voxels, one.counts[0] + one.counts[1] + one.counts[2] + one.counts[3]);
   EXPECT_EQ(one.seconds_each.size(), 2u);
-  EXPECT_EQ(one.checked_triangles, 4);
+  EXPECT_EQ(one.check.triangles, 4);
   options_.threads = 3;
   EXPECT_EQ(bench_voxelize(options_, JobContext()).counts, one.counts);
 }

@@ -29,19 +29,31 @@ TEST(Registry, MakesTheDefaultFirst) {
   EXPECT_EQ(count.voxels, 1);
 }
 
-TEST(Registry, SaysWhatIsNotBuilt) {
-  for (const char* name : {"rotated", "rotated=lc", "kaufman", "gpu"}) {
+TEST(Registry, SaysWhatIsNotBuiltAndWhy) {
+  for (const char* name : {"gpu", "gpu=cg"}) {
     const Error error = error_of(name);
     EXPECT_EQ(error.code(), ErrorCode::kUsage) << name;
     EXPECT_NE(error.message().find("not built"), std::string::npos) << error.message();
+    EXPECT_NE(error.message().find("round"), std::string::npos) << error.message();
   }
 }
 
 TEST(Registry, NamesWhatThereIs) {
-  for (const char* name : {"", "exact=2", "exakt"}) {
+  for (const char* name : {"", "exact=2", "exakt", "rotated=", "rotated=l", "rotated=lc=lc", "kaufman=lc"}) {
     const Error error = error_of(name);
     EXPECT_EQ(error.code(), ErrorCode::kUsage) << name;
-    EXPECT_NE(error.hint().find("exact"), std::string::npos) << error.hint();
+    EXPECT_NE(error.hint().find("exact, rotated, rotated=lc, rotated=plain, kaufman"), std::string::npos)
+        << error.hint();
+  }
+}
+
+TEST(Registry, MakesEveryMethodAndVariant) {
+  for (const char* name : {"exact", "rotated", "rotated=lc", "rotated=plain", "kaufman"}) {
+    std::vector<Voxel> voxels;
+    make_voxelizer(name, 2)->raster({{{0, 0, 0}, {2560, 0, 0}, {0, 2560, 0}}}, {{-9, -9, -9}, {20, 20, 20}},
+                                    voxels);
+    EXPECT_GT(voxels.size(), 20u) << name;
+    EXPECT_EQ(method_of(name).exact, std::string_view(name) == "exact");
   }
 }
 
