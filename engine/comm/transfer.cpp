@@ -86,9 +86,11 @@ bool Transfer::progress() {
   return open_ == 0;
 }
 
-int Transfer::next_received() {
+std::optional<int> Transfer::next_received() {
   while (received_.empty()) {
-    if (std::all_of(pieces_left_.begin(), pieces_left_.end(), [](int left) { return left == 0; })) return -1;
+    if (std::all_of(pieces_left_.begin(), pieces_left_.end(), [](int left) { return left == 0; })) {
+      return std::nullopt;
+    }
     take(true);
   }
   const int from = received_.back();

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,9 +34,9 @@ class Transfer {
 
   // Lets MPI work; whether all has ended.
   bool progress();
-  // Waits until all of one receive is there and returns the rank that it is from, each once; -1 when there
-  // are no more.
-  int next_received();
+  // Waits until all of one receive is there and returns the rank that it is from, each once; nothing when
+  // there are no more.
+  std::optional<int> next_received();
   // Waits for everything.
   void wait();
 

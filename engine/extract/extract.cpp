@@ -11,12 +11,12 @@
 #include "engine/extract/balance/balance.h"
 #include "engine/extract/computations.h"
 #include "engine/extract/exchange/exchange.h"
+#include "engine/extract/exchange/remote_voxels.h"
 #include "engine/extract/registry.h"
 #include "engine/extract/statistics/discontinuity.h"
 #include "engine/voxelize/registry.h"
 #include "engine/voxelize/simd.h"
 #include "storage/base/hash.h"
-#include "storage/base/log.h"
 
 namespace footwall::extract {
 namespace {
@@ -179,50 +179,15 @@ struct LoadedSurvey::State {
   State(const comm::Communicator& parent, const comm::RankGrid& its_grid)
       : grid(its_grid),
         world(parent, grid),
-        blocks(world.collectively([&] { return Blocks(grid, world.rank()); })) {
-    world.collectively([&] {
-      cache = std::make_unique<VoxelCache>(grid, blocks);
-      sent = std::make_unique<SentRecord>(grid, world.rank());
-    });
-  }
-  void forget_cache() {
-    cache->clear();
-    sent->clear();
-  }
+        blocks(world.collectively([&] { return Blocks(grid, world.rank()); })),
+        remote(
+            world.collectively([&] { return std::make_unique<RemoteVoxels>(grid, blocks, world.rank()); })) {}
   comm::RankGrid grid;
   comm::Communicator world;
   Blocks blocks;
-  std::unique_ptr<VoxelCache> cache;
-  std::unique_ptr<SentRecord> sent;
-  bool told_of_the_limit = false;
+  std::unique_ptr<RemoteVoxels> remote;
   double read_seconds = 0;  // of this rank
-
-  // Runs a strategy between the cache's begin and end. After an error on all ranks none can be sure what the
-  // others have, so all forget.
-  Outcome exchange(const ExchangeStrategy& strategy, const Setup& setup);
 };
-
-Outcome LoadedSurvey::State::exchange(const ExchangeStrategy& strategy, const Setup& setup) {
-  try {
-    cache->begin_extraction();
-    sent->begin_extraction();
-    Outcome outcome = strategy.run(setup);
-    outcome.cache_hits = cache->hits();
-    sent->trim(setup.options.cache_bytes);
-    if (cache->trim(setup.options.cache_bytes) && !told_of_the_limit) {
-      told_of_the_limit = true;
-      log::info("rank " + std::to_string(world.rank()) +
-                ": one extraction alone needs more voxels of other " + "ranks than the cache's limit of " +
-                std::to_string(setup.options.cache_bytes >> 20) +
-                " MiB holds; it works, and moves them again the next time");
-    }
-    outcome.cache_voxels = cache->voxels();
-    return outcome;
-  } catch (...) {
-    forget_cache();
-    throw;
-  }
-}
 
 LoadedSurvey::LoadedSurvey(const comm::Communicator& parent, const survey::Index& dims, const ReadBox& read,
                            const JobContext& job, std::array<int, 2> pillars) {
@@ -245,7 +210,7 @@ const comm::RankGrid& LoadedSurvey::grid() const {
 }
 
 void LoadedSurvey::forget_cache() {
-  state_->forget_cache();
+  state_->remote->forget();
 }
 
 Result LoadedSurvey::extract(const Input& input, const Options& options, const JobContext& job) {
@@ -267,12 +232,22 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
   const comm::Traffic before = world.traffic();
 
   // 2 voxelize, 3 exchange, 4 compute
-  const Setup setup{
-      world,           state_->grid, state_->blocks,  *state_->cache,     *state_->sent, input,
-      responsible,     options,      exchange_choice, with_discontinuity, scale,         whole_face,
-      options.threads, job};
+  const Setup setup{world,
+                    state_->grid,
+                    state_->blocks,
+                    state_->remote->cache(),
+                    state_->remote->sent(),
+                    input,
+                    responsible,
+                    options,
+                    exchange_choice,
+                    with_discontinuity,
+                    scale,
+                    whole_face,
+                    options.threads,
+                    job};
   const ExchangeStrategy& exchange = exchange_strategy(exchange_choice.name);
-  Outcome outcome = state_->exchange(exchange, setup);
+  Outcome outcome = state_->remote->run(exchange, setup);
   const comm::Traffic after = world.traffic();
 
   Result result;

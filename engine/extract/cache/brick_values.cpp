@@ -72,7 +72,7 @@ void gather(const Blocks& blocks, std::span<const Coordinates> coordinates, std:
     const survey::Index voxel{p[0], p[1], p[2]};
     if (block == nullptr || !block->own().contains(voxel)) {
       block = blocks.owning(voxel);
-      require(block != nullptr, "a request for a voxel of this rank");
+      if (block == nullptr) throw Error(ErrorCode::kInternal, "asked for a voxel of another rank");
     }
     values[n] = block->data()[block->offset(voxel)];
   }

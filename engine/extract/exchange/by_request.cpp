@@ -72,10 +72,10 @@ Outcome exchange_by_request(const Setup& setup, std::int64_t side) {
       const std::size_t r = (static_cast<std::size_t>(world.rank()) + n) % ranks;  // not all to rank 0 first
       requests.send(static_cast<int>(r), plan.requests[r].bytes());
     }
-    for (int from = requests.next_received(); from >= 0; from = requests.next_received()) {
-      const auto r = static_cast<std::size_t>(from);
+    while (const std::optional<int> from = requests.next_received()) {
+      const auto r = static_cast<std::size_t>(*from);
       gather(setup.blocks, std::as_const(asked[r]).items(), answers[r].items());
-      replies.send(from, answers[r].bytes());
+      replies.send(*from, answers[r].bytes());
     }
     requests.wait();
     replies.wait();

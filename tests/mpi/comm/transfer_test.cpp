@@ -60,10 +60,10 @@ TEST(Transfer, NamesEverySenderOnceWhenItsMessageIsHere) {
   talk.post(transfer);
   std::multiset<int> told;
   std::multiset<int> expected;
-  for (int from = transfer.next_received(); from >= 0; from = transfer.next_received()) {
-    told.insert(from);
-    const Bytes& got = talk.incoming[static_cast<std::size_t>(from)];
-    EXPECT_EQ(got, Bytes(got.size(), static_cast<std::byte>(from * 16 + world.rank())));
+  while (const std::optional<int> from = transfer.next_received()) {
+    told.insert(*from);
+    const Bytes& got = talk.incoming[static_cast<std::size_t>(*from)];
+    EXPECT_EQ(got, Bytes(got.size(), static_cast<std::byte>(*from * 16 + world.rank())));
   }
   for (int from = 0; from < world.size(); ++from) {
     if (!talk.incoming[static_cast<std::size_t>(from)].empty()) expected.insert(from);

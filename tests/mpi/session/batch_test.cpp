@@ -212,7 +212,7 @@ TEST_F(Batch, TroubleIsTheSameErrorOnAllRanks) {
   expect(ErrorCode::kInvalid, "checksum");
   with([](Job& j) { j.geometry.interval = 2; });
   expect(ErrorCode::kInvalid, "by 2");
-  with([](Job& j) { j.options.exchange = "push"; });
+  with([](Job& j) { j.options.exchange = "pushing"; });
   expect(ErrorCode::kUsage, "push");
   with([](Job& j) { j.volume = "gone.h5"; });
   expect(ErrorCode::kNotFound, "gone.h5");
