@@ -160,7 +160,7 @@ void add_bench_balance(console::Program& program, CLI::App* bench) {
   command->add_option("--seed", options->shape.seed, "Of the random numbers (default 1)");
   command->add_option("--ranks", options->ranks, "Rank counts, with commas (default 1,2,4,...,256)");
   command->add_option("--strategy", options->strategies,
-                      "As extract --balance, also local=D,running; several with ';' (default all)");
+                      "As extract takes them, also local=D,running; several with ';' (default all)");
   command->add_option("--delta", options->deltas,
                       "Thresholds in mean face areas, with commas, where no strategy is named (default 0)");
   command->add_option("--tau", options->taus,

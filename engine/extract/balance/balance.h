@@ -17,9 +17,9 @@ namespace footwall::extract {
 // What things cost, as far as a balancer weighs them, in picoseconds: whole numbers that must be the same on
 // every rank (measured ones have to be agreed first). The ratio of the first two matters most.
 struct BalanceCosts {
-  std::int64_t voxel = 6000;       // voxelizing, looking up and folding one voxel
-  std::int64_t remote = 2000;      // packing, sending and unpacking the value of one voxel
-  std::int64_t message = 2000000;  // one message
+  std::int64_t voxel = 6000;      // voxelizing, looking up and folding one voxel
+  std::int64_t remote = 2000;     // packing, sending and unpacking the value of one voxel
+  std::int64_t message = 500000;  // one message
   // Extractions for which the faces will probably stay as they are; what has to be sent for a move is then
   // sent once (see CacheDirectory), and its gain comes back each time.
   std::int64_t horizon = 1;

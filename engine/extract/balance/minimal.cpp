@@ -128,11 +128,20 @@ class Plan {
     const survey::Box inside = survey::intersection(box, {{0, 0, 0}, grid.dims()});
     if (inside.empty()) return -1;
     const auto [rows, columns] = grid.lines();
+    const auto [along, across] = grid.parts();
+    // In 32 bits: divisions are most of the work.
+    const auto pillar = [](std::int64_t line, std::int64_t lines) {
+      return static_cast<std::int64_t>(static_cast<std::uint32_t>(line) / static_cast<std::uint32_t>(lines));
+    };
+    const std::int64_t last_a = pillar(inside.hi[0] - 1, rows);
+    const std::int64_t first_b = pillar(inside.lo[1], columns);
+    const std::int64_t last_b = pillar(inside.hi[1] - 1, columns);
     int best = -1;
     std::int64_t most = 0;
-    for (std::int64_t a = inside.lo[0] / rows; a <= (inside.hi[0] - 1) / rows; ++a) {
-      for (std::int64_t b = inside.lo[1] / columns; b <= (inside.hi[1] - 1) / columns; ++b) {
-        const int rank = grid.owner({a * rows, b * columns, 0});
+    for (std::int64_t a = pillar(inside.lo[0], rows); a <= last_a; ++a) {
+      for (std::int64_t b = first_b; b <= last_b; ++b) {
+        const int rank = static_cast<int>(a < along ? a : a % along) * across +
+                         static_cast<int>(b < across ? b : b % across);
         if (!has_room(rank, face)) continue;
         const std::int64_t traces =
             (std::min(inside.hi[0], (a + 1) * rows) - std::max(inside.lo[0], a * rows)) *

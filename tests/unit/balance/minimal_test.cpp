@@ -32,7 +32,7 @@ void check_evenness(const Benchmark& benchmark, std::span<const Face> faces, int
   const MinimalMoves counted = minimal_moves({grid, faces, kMinimal, {}, pieces.voxels});
   for (const MinimalMoves* moves : {&estimated, &counted}) {
     EXPECT_LE(moves->moved, moves->least);
-    EXPECT_GT(moves->gain, moves->cost);
+    EXPECT_TRUE(moves->moved == 0 || moves->gain > moves->cost);
     const Amounts amounts = amounts_of(grid, faces, pieces, moves->responsible);
     if (static_cast<double>(faces.size()) >= 30.0 * ranks) {
       EXPECT_LE(amounts.voxels_max_over_mean, 1.02 + largest / mean);
