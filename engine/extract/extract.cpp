@@ -183,6 +183,7 @@ struct LoadedSurvey::State {
   comm::RankGrid grid;
   comm::Communicator world;
   Blocks blocks;
+  Kept kept;
   double read_seconds = 0;  // of this rank
 };
 
@@ -225,8 +226,10 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
   const comm::Traffic before = world.traffic();
 
   // 2 voxelize, 3 exchange, 4 compute
-  const Setup setup{world,           state_->grid,       state_->blocks, input,      responsible,     options,
-                    exchange_choice, with_discontinuity, scale,          whole_face, options.threads, job};
+  const Setup setup{world,       state_->grid, state_->blocks,  input,
+                    responsible, options,      exchange_choice, with_discontinuity,
+                    scale,       whole_face,   options.threads, state_->kept,
+                    job};
   const ExchangeStrategy& exchange = exchange_strategy(exchange_choice.name);
   Outcome outcome = exchange.run(setup);
   const comm::Traffic after = world.traffic();

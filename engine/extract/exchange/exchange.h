@@ -1,5 +1,6 @@
 // What every exchange strategy is given and gives back.
 #pragma once
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "engine/extract/blocks.h"
 #include "engine/extract/choice.h"
 #include "engine/extract/computations.h"
+#include "engine/extract/exchange/kept.h"
 #include "engine/extract/extract.h"
 #include "engine/extract/face.h"
 
@@ -26,6 +28,7 @@ struct Setup {
   // What needs a face's voxels on its responsible rank; none for a strategy that moves no voxels.
   std::span<const Computation* const> whole_face;
   int threads;
+  Kept& kept;
   const JobContext& job;
 
   const Face& face(std::size_t n) const { return input.faces[n]; }
@@ -52,6 +55,9 @@ struct Outcome {
   std::vector<FinishedBlob> blobs;
   std::int64_t walked = 0;  // voxels that this rank voxelized
   Seconds seconds;          // of this rank
+  // What ended the work of this rank alone, where the strategy took part in all its messages nevertheless:
+  // the driver agrees on it after the last one. A strategy that agrees by itself throws instead.
+  std::optional<Error> failure;
 };
 
 // Whether the whole closed triangle lies in the survey's box.

@@ -90,6 +90,11 @@ std::vector<Finished> merge_all(const Setup& setup, const std::vector<comm::Byte
 
 }  // namespace
 
+class ReduceBuffers {};
+
+Kept::Kept() = default;
+Kept::~Kept() = default;
+
 Outcome exchange_reduce(const Setup& setup) {
   Outcome outcome;
   const double start = omp_get_wtime();
