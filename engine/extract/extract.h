@@ -53,8 +53,10 @@ class LoadedSurvey {
 
   const comm::RankGrid& grid() const;
 
+  struct State;  // loaded_survey.h
+
  private:
-  struct State;
+  friend class Incremental;
   std::unique_ptr<State> state_;
 };
 

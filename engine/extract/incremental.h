@@ -65,6 +65,8 @@ class Incremental {
   std::vector<FaceStatistics> all_statistics() const;
 
  private:
+  std::vector<Place> by_identity() const;
+
   struct State;
   std::unique_ptr<State> state_;
 };
