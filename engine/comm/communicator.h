@@ -76,8 +76,13 @@ class Communicator {
   // and no message but those named; an empty one is sent, too. Partners other than this rank, each once. No
   // agreement: what can fail has to be done before, and a rank whose work failed still sends something.
   void exchange_known(std::span<const KnownOutgoing> outgoing, std::span<KnownIncoming> incoming);
-  // What both sent so far.
+  // What was sent so far by these, exchange_sizes() and Transfer (transfer.h).
   const Traffic& traffic() const { return traffic_; }
+  // Adds what was sent otherwise.
+  void count(std::int64_t bytes, std::int64_t messages) {
+    traffic_.bytes += bytes;
+    traffic_.messages += messages;
+  }
 
   // `bytes` of rank `root` everywhere. Collective.
   Bytes broadcast(Bytes bytes, int root) const;

@@ -5,7 +5,7 @@ namespace footwall::comm {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 30;
-constexpr int kTag = 2;
+constexpr int kTag = 1000;  // beside those of Transfer
 
 // Both sides cut a message into the pieces of its longest form, so that neither needs to know its size.
 std::size_t pieces_of(std::size_t most) {

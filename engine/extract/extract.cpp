@@ -6,6 +6,7 @@
 #include "engine/extract/loaded_survey.h"
 #include "engine/extract/registry.h"
 #include "engine/extract/report.h"
+#include "storage/base/log.h"
 
 namespace footwall::extract {
 
@@ -20,17 +21,59 @@ bool inside(const survey::LatticeTriangle& triangle, const survey::Index& dims) 
   });
 }
 
+namespace {
+
+// A strategy that moves voxels, between the cache's begin and end. After an error on all ranks none can be
+// sure what the others have, so all forget.
+Outcome run_with_cache(LoadedSurvey::State& state, const ExchangeStrategy& strategy, const Setup& setup) {
+  try {
+    state.cache->begin_extraction();
+    state.sent->begin_extraction();
+    Outcome outcome = strategy.run(setup);
+    outcome.cache_hits = state.cache->hits();
+    state.sent->trim(setup.options.cache_bytes);
+    if (state.cache->trim(setup.options.cache_bytes) && !state.told_of_the_limit) {
+      state.told_of_the_limit = true;
+      log::info(
+          fmt::format("rank {}: one extraction alone needs more voxels of other ranks than the cache's limit "
+                      "of {} MiB holds; it works, and moves them again the next time",
+                      state.world.rank(), setup.options.cache_bytes >> 20));
+    }
+    outcome.cache_voxels = state.cache->voxels();
+    return outcome;
+  } catch (...) {
+    state.forget_cache();
+    throw;
+  }
+}
+
+}  // namespace
+
 void run_exchange(LoadedSurvey::State& state, const Plan& plan, const Input& input,
                   std::span<const int> responsible, const JobContext& job, Ran& ran) {
   comm::Communicator& world = state.world;
   const comm::Traffic before = world.traffic();
-  const Setup setup{world,       state.grid,      state.blocks,         input,
-                    responsible, plan.options,    plan.exchange,        plan.with_discontinuity,
-                    plan.scale,  plan.whole_face, plan.options.threads, state.kept,
-                    job};
-  ran.outcome = plan.strategy->run(setup);
+  const Setup setup{world,      state.grid,      state.blocks,         *state.cache,  *state.sent,
+                    input,      responsible,     plan.options,         plan.exchange, plan.with_discontinuity,
+                    plan.scale, plan.whole_face, plan.options.threads, state.kept,    job};
+  ran.outcome =
+      plan.strategy->moves_voxels ? run_with_cache(state, *plan.strategy, setup) : plan.strategy->run(setup);
   ran.traffic = {world.traffic().bytes - before.bytes, world.traffic().messages - before.messages};
   state.gather.statistics(world, responsible, ran.outcome.finished, ran.faces);
+}
+
+Tally tally_of(const Ran& ran) {
+  Tally tally;
+  tally.sums.walked = tally.most_walked = ran.outcome.walked;
+  tally.sums.bytes = ran.traffic.bytes;
+  tally.sums.messages = ran.traffic.messages;
+  tally.sums.cache_hits = ran.outcome.cache_hits;
+  tally.sums.cache_voxels = ran.outcome.cache_voxels;
+  return tally;
+}
+
+void LoadedSurvey::forget_cache() {
+  state_->forget_cache();
 }
 
 Result LoadedSurvey::extract(const Input& input, const Options& options, const JobContext& job) {
@@ -49,20 +92,18 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
 
   run_exchange(*state_, plan, input, responsible, job, ran);
 
-  Tally mine;
+  Tally mine = tally_of(ran);
   Result result;
   std::optional<Error> failure = std::move(ran.outcome.failure);
   try {
     if (!failure && world.rank() == 0)
       mine.sums.checksum = static_cast<std::int64_t>(checksum_of(input.faces, ran.faces));
     const std::vector<FixedArea> areas = fixed_areas(input.faces);
-    result.report.load_deviation = load_deviation(loads_of(areas, responsible, world.size()));
+    result.report.loads = loads_of(areas, responsible, world.size());
+    result.report.load_deviation = load_deviation(result.report.loads);
   } catch (...) {
     failure = comm::current_error();
   }
-  mine.sums.walked = mine.most_walked = ran.outcome.walked;
-  mine.sums.bytes = ran.traffic.bytes;
-  mine.sums.messages = ran.traffic.messages;
   Seconds& seconds = ran.outcome.seconds;
   seconds.read = state_->read_seconds;
   seconds.balance = balanced - start;
@@ -76,7 +117,7 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
   }
   Report& report = result.report;
   fill_report(all, world.size(), report);
-  report.exchange = plan.strategy->name;
+  report.exchange = name_of_exchange(plan);
   report.balance = options.balance;
   report.threads = options.threads;
   report.faces = static_cast<std::int64_t>(input.faces.size());

@@ -53,9 +53,8 @@ struct Incremental::State {
   std::vector<Int128> loads;  // of each rank: the areas of its faces
 
   // Of the current update.
-  std::vector<Face> dirty;         // added, then changed
-  std::vector<int> dirty_ranks;    // of dirty
-  std::vector<FixedArea> rounded;  // loads, as far as they fit
+  std::vector<Face> dirty;       // added, then changed
+  std::vector<int> dirty_ranks;  // of dirty
   Ran ran;
   Update update;
 
@@ -169,16 +168,16 @@ void Incremental::State::fill(const Tally& all) {
   Report& report = update.report;
   report = {};
   fill_report(all, survey.world.size(), report);
-  report.exchange = plan.strategy->name;
+  report.exchange = name_of_exchange(plan);
   report.balance = plan.options.balance;
   report.threads = plan.options.threads;
   report.faces = static_cast<std::int64_t>(dirty.size());
   report.walked_here = ran.outcome.walked;
-  rounded.resize(loads.size());
-  std::transform(loads.begin(), loads.end(), rounded.begin(), [](Int128 load) {
+  report.loads.resize(loads.size());
+  std::transform(loads.begin(), loads.end(), report.loads.begin(), [](Int128 load) {
     return static_cast<FixedArea>(std::min<Int128>(load, std::numeric_limits<FixedArea>::max()));
   });
-  report.load_deviation = load_deviation(rounded);
+  report.load_deviation = load_deviation(report.loads);
 }
 
 Incremental::Incremental(LoadedSurvey& survey, double max_abs, Options options)
@@ -202,10 +201,7 @@ const Update& Incremental::update(const FaceChanges& changes, const JobContext& 
         gather_blobs(s.survey.world, std::move(s.ran.outcome.blobs), s.plan.whole_face, s.dirty.size());
   }
 
-  Tally mine;
-  mine.sums.walked = mine.most_walked = s.ran.outcome.walked;
-  mine.sums.bytes = s.ran.traffic.bytes;
-  mine.sums.messages = s.ran.traffic.messages;
+  Tally mine = tally_of(s.ran);
   Seconds& seconds = s.ran.outcome.seconds;
   seconds.balance = balanced - start;
   seconds.total = omp_get_wtime() - start;

@@ -5,6 +5,7 @@
 #include "engine/extract/extract.h"
 #include "engine/extract/gather.h"
 #include "engine/extract/plan.h"
+#include "engine/extract/report.h"
 
 namespace footwall::extract {
 
@@ -13,14 +14,27 @@ struct LoadedSurvey::State {
   State(const comm::Communicator& parent, const comm::RankGrid& its_grid)
       : grid(its_grid),
         world(parent, grid),
-        blocks(world.collectively([&] { return Blocks(grid, world.rank()); })) {}
+        blocks(world.collectively([&] { return Blocks(grid, world.rank()); })) {
+    world.collectively([&] {
+      cache = std::make_unique<VoxelCache>(grid, blocks);
+      sent = std::make_unique<SentRecord>(grid, world.rank());
+    });
+  }
+
+  void forget_cache() {
+    cache->clear();
+    sent->clear();
+  }
 
   comm::RankGrid grid;
   comm::Communicator world;
   Blocks blocks;
+  std::unique_ptr<VoxelCache> cache;
+  std::unique_ptr<SentRecord> sent;
   Kept kept;
   Gather gather;
   double read_seconds = 0;  // of this rank
+  bool told_of_the_limit = false;
 };
 
 // Steps 2 to 4 of EXTRACT-ALL for faces whose ranks are known, and the results at rank 0, unagreed; after
@@ -33,5 +47,8 @@ struct Ran {
 // Collective. A failure of this rank alone is in the outcome, or was agreed upon and is thrown.
 void run_exchange(LoadedSurvey::State& state, const Plan& plan, const Input& input,
                   std::span<const int> responsible, const JobContext& job, Ran& ran);
+
+// What this rank has to tell of it, but for the seconds.
+Tally tally_of(const Ran& ran);
 
 }  // namespace footwall::extract

@@ -44,7 +44,9 @@ Plan plan_of(const Options& options, double max_abs) {
   for (const std::string& name : options.compute) computation(name);
   voxelize::make_voxelizer(options.voxelizer);
   plan.whole_face = whole_face_computations(options);
-  if (!plan.whole_face.empty() && plan.exchange.name != "auto" && !plan.strategy->moves_voxels) {
+  // "auto" takes sums where they are enough, else the strategy that moves the fewest bytes.
+  if (!plan.whole_face.empty() && plan.exchange.name == "auto") plan.strategy = &exchange_strategy("push");
+  if (!plan.whole_face.empty() && !plan.strategy->moves_voxels) {
     throw Error(ErrorCode::kUsage,
                 "'" + std::string(plan.whole_face.front()->name) +
                     "' needs the voxels of a face, and exchange '" + plan.exchange.name + "' moves none",
@@ -56,6 +58,10 @@ Plan plan_of(const Options& options, double max_abs) {
   if (plan.with_discontinuity) plan.scale = discontinuity_scale(max_abs);
   voxelize::apply_forced_simd();
   return plan;
+}
+
+std::string name_of_exchange(const Plan& plan) {
+  return plan.exchange.name == "auto" ? std::string(plan.strategy->name) : plan.exchange.text();
 }
 
 void validate(const Options& options) {

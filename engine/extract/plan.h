@@ -22,5 +22,7 @@ struct Plan {
 
 // max_abs: of the volume. Throws kUsage as validate() does.
 Plan plan_of(const Options& options, double max_abs);
+// For reports: as the options write it, and what runs in the place of "auto".
+std::string name_of_exchange(const Plan& plan);
 
 }  // namespace footwall::extract
