@@ -110,3 +110,16 @@ function(footwall_mpi_test NAME)
       ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMP_NUM_THREADS=1;OMPI_MCA_mpi_yield_when_idle=1;OMPI_MCA_rmaps_base_oversubscribe=1")
   endforeach()
 endfunction()
+
+# footwall_slow_mpi_test(extract FACTOR 50 TEST Exchanges/RandomEdits.* RANKS 1 2 3 4)
+# Tests of mpi_<name> again, under the label slow, with FACTOR times the random cases (tests/rounds.h).
+function(footwall_slow_mpi_test NAME)
+  cmake_parse_arguments(ARG "" "FACTOR;TEST" "RANKS" ${ARGN})
+  foreach(ranks IN LISTS ARG_RANKS)
+    set(test slow_mpi_${NAME}.${ARG_TEST}.np${ranks})
+    add_test(NAME ${test} COMMAND ${MPIEXEC_EXECUTABLE} ${FOOTWALL_MPIEXEC_FLAGS} ${MPIEXEC_NUMPROC_FLAG} ${ranks}
+      $<TARGET_FILE:mpi_${NAME}> --gtest_filter=${ARG_TEST})
+    set_tests_properties(${test} PROPERTIES LABELS slow TIMEOUT 900
+      ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMP_NUM_THREADS=1;OMPI_MCA_mpi_yield_when_idle=1;OMPI_MCA_rmaps_base_oversubscribe=1;FOOTWALL_TEST_FACTOR=${ARG_FACTOR}")
+  endforeach()
+endfunction()

@@ -28,6 +28,18 @@ struct Traffic {
 
 using Bytes = std::vector<std::byte>;
 
+// One message of exchange_known(). `most` is known alike to sender and receiver: the receiver's room.
+struct KnownOutgoing {
+  int rank = 0;
+  std::span<const std::byte> bytes;
+  std::size_t most = 0;
+};
+struct KnownIncoming {
+  int rank = 0;
+  std::span<std::byte> room;
+  std::size_t received = 0;  // set by exchange_known()
+};
+
 // An Error that all ranks throw together: each may leave in order. Any other exception is of one rank alone,
 // whose program must call MPI_Abort so that the others do not wait for it.
 class AgreedError : public Error {
@@ -60,7 +72,11 @@ class Communicator {
   // go first, then only what is not empty, in non-blocking messages of at most 1 GiB. Collective; agrees on
   // memory before anything large is sent. Counted: 8 bytes and a message for every size, and the contents.
   std::vector<Bytes> exchange(std::vector<Bytes> outgoing);
-  // What was sent so far by exchange(), exchange_sizes() and Transfer (transfer.h).
+  // The same where both sides know beforehand who sends to whom, and at most how much: one round, no sizes,
+  // and no message but those named; an empty one is sent, too. Partners other than this rank, each once. No
+  // agreement: what can fail has to be done before, and a rank whose work failed still sends something.
+  void exchange_known(std::span<const KnownOutgoing> outgoing, std::span<KnownIncoming> incoming);
+  // What was sent so far by these, exchange_sizes() and Transfer (transfer.h).
   const Traffic& traffic() const { return traffic_; }
   // Adds what was sent otherwise.
   void count(std::int64_t bytes, std::int64_t messages) {
@@ -73,15 +89,16 @@ class Communicator {
   double maximum(double value) const;              // collective
   std::int64_t maximum(std::int64_t value) const;  // collective
   std::int64_t sum(std::int64_t value) const;      // collective; no check for overflow
-
- private:
-  // Throws the lowest rank's error on all ranks, or returns on all.
+  // Throws the lowest rank's error on all ranks as AgreedError, or returns on all. Collective.
   void agree(const std::optional<Error>& mine) const;
 
+ private:
   MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0;
   int size_ = 1;
   Traffic traffic_;
+  std::vector<MPI_Request> requests_;  // of exchange_known(), to be used again
+  std::vector<MPI_Status> statuses_;
 };
 
 // The exception now being handled as an Error; call inside a catch block only.

@@ -11,6 +11,7 @@ namespace footwall::extract {
 namespace {
 
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
+constexpr std::size_t kCacheLine = 64;
 
 }  // namespace
 
@@ -22,10 +23,14 @@ Block::Block(const survey::Box& own, const survey::Index& dims) : own_(own) {
   corner_ = around.lo;
   strides_ = {around.size(1) * around.size(2), around.size(2), 1};
   const auto count = static_cast<std::size_t>(around.count());
-  const std::size_t bytes = (count * sizeof(float) + kHugePage - 1) / kHugePage * kHugePage;
-  values_.reset(static_cast<float*>(std::aligned_alloc(kHugePage, bytes)));
+  // A small block does not fill a huge page, and a rank may have many of them.
+  const bool large = count * sizeof(float) >= kHugePage;
+  const std::size_t unit = large ? kHugePage : kCacheLine;
+  const std::size_t bytes = (count * sizeof(float) + unit - 1) / unit * unit;
+  values_.reset(static_cast<float*>(std::aligned_alloc(unit, bytes)));
   if (!values_) throw std::bad_alloc();
-  madvise(values_.get(), bytes, MADV_HUGEPAGE);  // only advice: refused, it is slower and nothing else
+  // Only advice: refused, it is slower and nothing else.
+  if (large) madvise(values_.get(), bytes, MADV_HUGEPAGE);
   std::fill_n(values_.get(), count, std::numeric_limits<float>::quiet_NaN());
 }
 

@@ -2,144 +2,12 @@
 
 #include <omp.h>
 
-#include <bit>
-#include <cmath>
-#include <cstring>
-#include <numeric>
-#include <tuple>
-
-#include "engine/extract/balance/balance.h"
-#include "engine/extract/computations.h"
-#include "engine/extract/exchange/exchange.h"
-#include "engine/extract/exchange/remote_voxels.h"
+#include "engine/extract/balance/area.h"
+#include "engine/extract/loaded_survey.h"
 #include "engine/extract/registry.h"
-#include "engine/extract/statistics/discontinuity.h"
-#include "engine/voxelize/registry.h"
-#include "engine/voxelize/simd.h"
-#include "storage/base/hash.h"
+#include "engine/extract/report.h"
 
 namespace footwall::extract {
-namespace {
-
-// Reads wanted() in slabs of whole chunks of inlines; every rank makes the same number of calls. A rank that
-// has no such block takes part with an empty box.
-void read_block(const comm::Communicator& world, const ReadBox& read, const JobContext& job, Block* block) {
-  const survey::Box wanted = block == nullptr ? survey::Box{} : block->wanted();
-  const std::int64_t first = wanted.empty() ? 0 : wanted.lo[0] / kSlabInlines;
-  const std::int64_t last = wanted.empty() ? 0 : (wanted.hi[0] + kSlabInlines - 1) / kSlabInlines;
-  const std::int64_t rounds = world.maximum(last - first);
-  std::vector<float> values;
-  for (std::int64_t round = 0; round < rounds; ++round) {
-    survey::Box slab = wanted;
-    slab.lo[0] = std::max(wanted.lo[0], (first + round) * kSlabInlines);
-    slab.hi[0] = std::min(wanted.hi[0], (first + round + 1) * kSlabInlines);
-    if (slab.empty()) slab = {};
-    world.collectively([&] {
-      job.report(static_cast<double>(round) / static_cast<double>(rounds), "read",
-                 std::to_string(round) + " of " + std::to_string(rounds) + " slabs");
-      values.resize(static_cast<std::size_t>(slab.count()));
-    });
-    world.collectively([&] { read(slab, values); });  // throws on all ranks or on none, as promised
-    if (block != nullptr) block->put(slab, values);
-  }
-}
-
-void read_blocks(const comm::Communicator& world, const ReadBox& read, const JobContext& job,
-                 Blocks& blocks) {
-  const std::span<Block> own = blocks.all();
-  const auto most = static_cast<std::size_t>(world.maximum(static_cast<std::int64_t>(own.size())));
-  for (std::size_t n = 0; n < most; ++n) {
-    const double share = 1 / static_cast<double>(most);
-    const JobContext part = job.part(static_cast<double>(n) * share, static_cast<double>(n + 1) * share);
-    read_block(world, read, part, n < own.size() ? &own[n] : nullptr);
-  }
-}
-
-// The results of all ranks at rank 0, in the order of the input.
-std::vector<FaceStatistics> gathered(comm::Communicator& world, const std::vector<Finished>& mine,
-                                     std::size_t faces) {
-  static_assert(std::is_trivially_copyable_v<Finished>);
-  const std::vector<comm::Bytes> parts = world.exchange(world.collectively([&] {
-    std::vector<comm::Bytes> outgoing(static_cast<std::size_t>(world.size()));
-    const auto raw = std::as_bytes(std::span(mine));
-    outgoing[0].assign(raw.begin(), raw.end());
-    return outgoing;
-  }));
-  return world.collectively([&] {
-    std::vector<FaceStatistics> all;
-    if (world.rank() != 0) return all;
-    all.resize(faces);
-    std::size_t seen = 0;
-    for (const comm::Bytes& part : parts) {
-      for (std::size_t at = 0; at < part.size(); at += sizeof(Finished), ++seen) {
-        Finished finished;
-        std::memcpy(&finished, part.data() + at, sizeof finished);
-        all.at(static_cast<std::size_t>(finished.face)) = finished.statistics;
-      }
-    }
-    require(seen == faces, "one result for every face");
-    return all;
-  });
-}
-
-// The whole-face results of all ranks at rank 0, one for each computation.
-std::vector<FaceBlobs> gathered_blobs(comm::Communicator& world, std::vector<FinishedBlob> mine,
-                                      std::span<const Computation* const> computations, std::size_t faces) {
-  struct Head {
-    std::int64_t face, computation, bytes;
-  };
-  const std::vector<comm::Bytes> parts = world.exchange(world.collectively([&] {
-    std::vector<comm::Bytes> outgoing(static_cast<std::size_t>(world.size()));
-    for (FinishedBlob& blob : mine) {
-      const Head head{blob.face, static_cast<std::int64_t>(blob.computation),
-                      static_cast<std::int64_t>(blob.bytes.size())};
-      const auto raw = std::as_bytes(std::span(&head, 1));
-      outgoing[0].insert(outgoing[0].end(), raw.begin(), raw.end());
-      outgoing[0].insert(outgoing[0].end(), blob.bytes.begin(), blob.bytes.end());
-      blob.bytes = {};
-    }
-    return outgoing;
-  }));
-  return world.collectively([&] {
-    std::vector<FaceBlobs> all;
-    if (world.rank() != 0) return all;
-    std::vector<std::vector<std::span<const std::byte>>> of(computations.size(),
-                                                            std::vector<std::span<const std::byte>>(faces));
-    for (const comm::Bytes& part : parts) {
-      for (std::size_t at = 0; at < part.size();) {
-        Head head{};
-        std::memcpy(&head, part.data() + at, sizeof head);
-        at += sizeof head;
-        of.at(static_cast<std::size_t>(head.computation)).at(static_cast<std::size_t>(head.face)) =
-            std::span(part).subspan(at, static_cast<std::size_t>(head.bytes));
-        at += static_cast<std::size_t>(head.bytes);
-      }
-    }
-    for (std::size_t c = 0; c < computations.size(); ++c) {
-      FaceBlobs& blobs = all.emplace_back();
-      blobs.computation = computations[c]->name;
-      blobs.offsets.push_back(0);
-      for (const std::span<const std::byte> bytes : of[c]) {
-        blobs.bytes.insert(blobs.bytes.end(), bytes.begin(), bytes.end());
-        blobs.offsets.push_back(blobs.bytes.size());
-      }
-    }
-    return all;
-  });
-}
-
-template <typename T>
-void append(T value, std::vector<std::byte>& bytes) {
-  static_assert(std::endian::native == std::endian::little);
-  const auto raw = std::as_bytes(std::span(&value, 1));
-  bytes.insert(bytes.end(), raw.begin(), raw.end());
-}
-
-double canonical(double value) {
-  return std::isnan(value) ? kUndefined : value;
-}
-
-}  // namespace
 
 bool inside(const survey::LatticeTriangle& triangle, const survey::Index& dims) {
   constexpr std::int64_t kHalf = survey::kLatticePerVoxel / 2;
@@ -152,134 +20,83 @@ bool inside(const survey::LatticeTriangle& triangle, const survey::Index& dims) 
   });
 }
 
-void validate(const Options& options) {
-  const Choice exchange = parse_choice(options.exchange);
-  const Choice balance = parse_choice(options.balance);
-  find_row(exchange_rows(), "exchange", exchange.name);
-  exchange_strategy(exchange.name).check(exchange);
-  find_row(balance_rows(), "balance", balance.name);
-  balance_strategy(balance.name).check(balance);
-  for (const std::string& name : options.compute) computation(name);
-  voxelize::make_voxelizer(options.voxelizer);
-  const std::vector<const Computation*> whole = whole_face_computations(options);
-  if (!whole.empty() && exchange.name != "auto" && !exchange_strategy(exchange.name).moves_voxels) {
-    throw Error(ErrorCode::kUsage,
-                "'" + std::string(whole.front()->name) + "' needs the voxels of a face, and exchange '" +
-                    exchange.name + "' moves none",
-                "use --exchange push");
+void run_exchange(LoadedSurvey::State& state, const Plan& plan, const Input& input,
+                  std::span<const int> responsible, const JobContext& job, Ran& ran) {
+  comm::Communicator& world = state.world;
+  const comm::Traffic before = world.traffic();
+  const Setup setup{world,      state.grid,      state.blocks,         state.remote->cache(), state.remote->sent(),
+                    input,      responsible,     plan.options,         plan.exchange, plan.with_discontinuity,
+                    plan.scale, plan.whole_face, plan.options.threads, state.kept,    job};
+  if (plan.strategy->moves_voxels) {
+    ran.outcome = state.remote->run(*plan.strategy, setup);
+    state.directory.add(input.faces, responsible);
+  } else {
+    ran.outcome = plan.strategy->run(setup);
   }
-  for (const Computation* each : whole) each->make(options);
-  if (options.threads < 1 || options.threads > 1024) {
-    throw Error(ErrorCode::kUsage, "there cannot be " + std::to_string(options.threads) + " threads",
-                "give 1 to 1024 threads for each rank");
-  }
+  ran.traffic = {world.traffic().bytes - before.bytes, world.traffic().messages - before.messages};
+  state.gather.statistics(world, responsible, ran.outcome.finished, ran.faces);
 }
 
-struct LoadedSurvey::State {
-  State(const comm::Communicator& parent, const comm::RankGrid& its_grid)
-      : grid(its_grid),
-        world(parent, grid),
-        blocks(world.collectively([&] { return Blocks(grid, world.rank()); })),
-        remote(
-            world.collectively([&] { return std::make_unique<RemoteVoxels>(grid, blocks, world.rank()); })) {}
-  comm::RankGrid grid;
-  comm::Communicator world;
-  Blocks blocks;
-  std::unique_ptr<RemoteVoxels> remote;
-  double read_seconds = 0;  // of this rank
-};
-
-LoadedSurvey::LoadedSurvey(const comm::Communicator& parent, const survey::Index& dims, const ReadBox& read,
-                           const JobContext& job, std::array<int, 2> pillars) {
-  const double start = omp_get_wtime();
-  const comm::RankGrid grid = parent.collectively([&] {
-    if (dims[0] < 1 || dims[1] < 1 || dims[2] < 1) {
-      throw Error(ErrorCode::kInvalid, "the survey has no voxels");
-    }
-    return comm::RankGrid(dims, parent.size(), pillars);
-  });
-  state_ = std::make_unique<State>(parent, grid);
-  read_blocks(state_->world, read, job, state_->blocks);
-  state_->read_seconds = omp_get_wtime() - start;
-}
-
-LoadedSurvey::~LoadedSurvey() = default;
-
-const comm::RankGrid& LoadedSurvey::grid() const {
-  return state_->grid;
+Tally tally_of(const Ran& ran) {
+  Tally tally;
+  tally.sums.walked = tally.most_walked = ran.outcome.walked;
+  tally.sums.bytes = ran.traffic.bytes;
+  tally.sums.messages = ran.traffic.messages;
+  tally.sums.cache_hits = ran.outcome.cache_hits;
+  tally.sums.cache_voxels = ran.outcome.cache_voxels;
+  return tally;
 }
 
 void LoadedSurvey::forget_cache() {
-  state_->remote->forget();
+  state_->forget_cache();
 }
 
 Result LoadedSurvey::extract(const Input& input, const Options& options, const JobContext& job) {
   const double start = omp_get_wtime();
   comm::Communicator& world = state_->world;
-  const bool with_discontinuity = asks_for(options, "discontinuity");
-  const std::vector<const Computation*> whole_face = whole_face_computations(options);
-  const Choice balance = parse_choice(options.balance);
-  const Choice exchange_choice = parse_choice(options.exchange);
-  double scale = 0;
+  Plan plan;
+  Ran ran;
   const std::vector<int> responsible = world.collectively([&] {
-    validate(options);
+    plan = plan_of(options, input.max_abs);
     require(input.dims == state_->grid.dims(), "faces of the survey that was read");
-    voxelize::apply_forced_simd();
-    if (with_discontinuity) scale = discontinuity_scale(input.max_abs);
-    return balance_strategy(balance.name).run({state_->grid, input.faces, balance, {}});
+    std::vector<int> ranks = plan.balancer->run(state_->to_balance(plan, input.faces, {}));
+    state_->gather.prepare(world, ranks, ran.faces);
+    return ranks;
   });
   const double balanced = omp_get_wtime();
-  const comm::Traffic before = world.traffic();
 
-  // 2 voxelize, 3 exchange, 4 compute
-  const Setup setup{world,
-                    state_->grid,
-                    state_->blocks,
-                    state_->remote->cache(),
-                    state_->remote->sent(),
-                    input,
-                    responsible,
-                    options,
-                    exchange_choice,
-                    with_discontinuity,
-                    scale,
-                    whole_face,
-                    options.threads,
-                    job};
-  const ExchangeStrategy& exchange = exchange_strategy(exchange_choice.name);
-  Outcome outcome = state_->remote->run(exchange, setup);
-  const comm::Traffic after = world.traffic();
+  run_exchange(*state_, plan, input, responsible, job, ran);
 
+  Tally mine = tally_of(ran);
   Result result;
-  result.faces = gathered(world, outcome.finished, input.faces.size());
-  if (!whole_face.empty()) {
-    result.blobs = gathered_blobs(world, std::move(outcome.blobs), whole_face, input.faces.size());
+  std::optional<Error> failure = std::move(ran.outcome.failure);
+  try {
+    if (!failure && world.rank() == 0)
+      mine.sums.checksum = static_cast<std::int64_t>(checksum_of(input.faces, ran.faces));
+    const std::vector<FixedArea> areas = fixed_areas(input.faces);
+    result.report.loads = loads_of(areas, responsible, world.size());
+    result.report.load_deviation = load_deviation(result.report.loads);
+  } catch (...) {
+    failure = comm::current_error();
+  }
+  Seconds& seconds = ran.outcome.seconds;
+  seconds.read = state_->read_seconds;
+  seconds.balance = balanced - start;
+  seconds.total = omp_get_wtime() - start + state_->read_seconds;
+  mine.set(seconds);
+  const Tally all = together(world, mine, failure);
+
+  result.faces = std::move(ran.faces);
+  if (!plan.whole_face.empty()) {
+    result.blobs = gather_blobs(world, std::move(ran.outcome.blobs), plan.whole_face, input.faces.size());
   }
   Report& report = result.report;
-  report.exchange = exchange_choice.name == "auto" ? std::string(exchange.name) : exchange_choice.text();
+  fill_report(all, world.size(), report);
+  report.exchange = name_of_exchange(plan);
   report.balance = options.balance;
-  report.ranks = world.size();
   report.threads = options.threads;
   report.faces = static_cast<std::int64_t>(input.faces.size());
-  report.walked_here = outcome.walked;
-  report.voxels = world.sum(outcome.walked);
-  report.bytes_sent = world.sum(after.bytes - before.bytes);
-  report.messages = world.sum(after.messages - before.messages);
-  report.cache_hits = world.sum(outcome.cache_hits);
-  report.cache_voxels = world.sum(outcome.cache_voxels);
-  if (report.voxels > 0) {
-    report.load_max_over_mean = static_cast<double>(world.maximum(outcome.walked)) * world.size() /
-                                static_cast<double>(report.voxels);
-  }
-  const auto hash = static_cast<std::int64_t>(
-      world.collectively([&] { return world.rank() == 0 ? checksum_of(input.faces, result.faces) : 0; }));
-  report.checksum = static_cast<std::uint64_t>(world.sum(hash));  // the others add 0
-  report.seconds.read = world.maximum(state_->read_seconds);
-  report.seconds.balance = world.maximum(balanced - start);
-  report.seconds.voxelize = world.maximum(outcome.seconds.voxelize);
-  report.seconds.exchange = world.maximum(outcome.seconds.exchange);
-  report.seconds.compute = world.maximum(outcome.seconds.compute);
-  report.seconds.total = world.maximum(state_->read_seconds + omp_get_wtime() - start);
+  report.walked_here = ran.outcome.walked;
   return result;
 }
 
@@ -288,31 +105,6 @@ Result extract_all(const comm::Communicator& world, const Input& input, const Op
   world.collectively([&] { validate(options); });
   LoadedSurvey survey(world, input.dims, read, job.part(0, 0.5), options.pillars);
   return survey.extract(input, options, job.part(0.5, 0.95));
-}
-
-std::uint64_t checksum_of(std::span<const Face> faces, std::span<const FaceStatistics> statistics) {
-  require(faces.size() == statistics.size(), "statistics of every face");
-  std::vector<std::size_t> order(faces.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::tie(faces[a].fault, faces[a].owner, faces[a].n) <
-           std::tie(faces[b].fault, faces[b].owner, faces[b].n);
-  });
-  Hasher hasher;
-  std::vector<std::byte> bytes;
-  for (const std::size_t n : order) {
-    const FaceStatistics& face = statistics[n];
-    bytes.clear();
-    for (const std::int64_t whole : {faces[n].fault, faces[n].owner, std::int64_t{faces[n].n}, face.count,
-                                     face.nulls, static_cast<std::int64_t>(face.outside)}) {
-      append(whole, bytes);
-    }
-    for (const double value : {face.mean, face.variance, face.min, face.max, face.discontinuity}) {
-      append(canonical(value), bytes);
-    }
-    hasher.add(bytes);
-  }
-  return hasher.value();
 }
 
 }  // namespace footwall::extract

@@ -55,8 +55,10 @@ class LoadedSurvey {
   // Drops the voxels of other ranks that were kept for later extractions. By convention every rank calls it.
   void forget_cache();
 
+  struct State;  // loaded_survey.h
+
  private:
-  struct State;
+  friend class Incremental;
   std::unique_ptr<State> state_;
 };
 

@@ -77,6 +77,8 @@ struct Report {
   double load_max_over_mean = 1;  // of the voxels each rank walked; 1 where there are none
   double load_deviation = 0;      // standard deviation over ranks of the area (voxel^2) each is responsible
                                   // for: seed 004, equation 5.4, of this extraction
+  // The area that each rank is responsible for, in units of 2^-16 voxel^2 (balance/area.h).
+  std::vector<std::int64_t> loads;
   std::int64_t cache_hits = 0;    // remote voxels that were still there from an earlier extraction
   std::int64_t cache_voxels = 0;  // remote voxels kept, over all ranks
   std::string reason;             // why `auto` chose what ran; empty where nothing was left to choose

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/extract/balance/area.h"
 #include "engine/extract/extract.h"
 #include "engine/extract/registry.h"
 #include "engine/session/job.h"
@@ -65,6 +66,22 @@ void check_volume(const volume::VolumeInfo& info, Job& job) {
   }
 }
 
+// All but reading, which is done once for all groups, and the total.
+void add_phases(const extract::Seconds& group, extract::Seconds& sum) {
+  sum.balance += group.balance;
+  sum.voxelize += group.voxelize;
+  sum.exchange += group.exchange;
+  sum.compute += group.compute;
+}
+
+Json phases(const extract::Seconds& seconds) {
+  return {{"read", seconds.read},
+          {"balance", seconds.balance},
+          {"voxelize", seconds.voxelize},
+          {"exchange", seconds.exchange},
+          {"compute", seconds.compute}};
+}
+
 // What was computed, over all groups of faults.
 class Totals {
  public:
@@ -77,10 +94,16 @@ class Totals {
   void add(const extract::Report& group) {
     extract::Seconds& sum = report_.seconds;
     sum.read = group.seconds.read;  // once for all groups
-    sum.voxelize += group.seconds.voxelize;
-    sum.exchange += group.seconds.exchange;
-    sum.compute += group.seconds.compute;
+    report_.quickest.read = group.quickest.read;
+    add_phases(group.seconds, sum);
+    add_phases(group.quickest, report_.quickest);
     report_.exchange = group.exchange;
+    report_.balance = group.balance;
+    report_.reason = group.reason;
+    report_.cache_hits += group.cache_hits;
+    report_.cache_voxels = group.cache_voxels;  // those kept after the last
+    report_.loads.resize(group.loads.size());
+    for (std::size_t rank = 0; rank < group.loads.size(); ++rank) report_.loads[rank] += group.loads[rank];
     report_.bytes_sent += group.bytes_sent;
     report_.messages += group.messages;
     report_.voxels += group.voxels;
@@ -89,6 +112,7 @@ class Totals {
   // Collective.
   extract::Report report(const comm::Communicator& world) const {
     extract::Report whole = report_;
+    whole.load_deviation = extract::load_deviation(whole.loads);
     const std::int64_t most = world.maximum(whole.walked_here);
     if (whole.voxels > 0) {
       whole.load_max_over_mean = static_cast<double>(most) * whole.ranks / static_cast<double>(whole.voxels);
@@ -99,6 +123,12 @@ class Totals {
  private:
   extract::Report report_;
 };
+
+// Of the slowest rank in each phase.
+Json with_total(Json seconds, double total) {
+  seconds["total"] = total;
+  return seconds;
+}
 
 Json summary(const Job& job, const std::filesystem::path& job_path, const extract::Report& report,
              const SharedParts& parts, double total_seconds) {
@@ -129,13 +159,13 @@ Json summary(const Job& job, const std::filesystem::path& job_path, const extrac
           {"bytes_sent", report.bytes_sent},
           {"messages", report.messages},
           {"load_max_over_mean", report.load_max_over_mean},
+          {"load_deviation", report.load_deviation},
+          {"pillars", job.options.pillars},
+          {"cache_hits", report.cache_hits},
+          {"cache_voxels", report.cache_voxels},
           {"checksum", to_hex(extract::checksum_of(faces, statistics))},
-          {"seconds",
-           {{"read", report.seconds.read},
-            {"voxelize", report.seconds.voxelize},
-            {"exchange", report.seconds.exchange},
-            {"compute", report.seconds.compute},
-            {"total", total_seconds}}},
+          {"seconds", with_total(phases(report.seconds), total_seconds)},
+          {"quickest_seconds", phases(report.quickest)},
           {"volume", {{"path", job.volume.string()}, {"checksum", job.volume_checksum}}},
           {"parts", files}};
 }
@@ -186,7 +216,7 @@ void run_batch(const comm::Communicator& world, const std::filesystem::path& job
     const auto read = [&](const survey::Box& box, std::span<float> values) {
       reader.read_collective(box, values);
     };
-    extract::LoadedSurvey survey(world, reader.info().dims, read, context.part(0, 0.5));
+    extract::LoadedSurvey survey(world, reader.info().dims, read, context.part(0, 0.5), job.options.pillars);
     std::size_t before = 0;
     for (const std::vector<std::size_t>& group : groups) {
       std::vector<extract::Face> faces;

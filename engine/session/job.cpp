@@ -69,6 +69,8 @@ Job header_from_json(const Json& json, const std::filesystem::path& folder,
   options.at("balance").get_to(job.options.balance);
   options.at("voxelizer").get_to(job.options.voxelizer);
   options.at("threads").get_to(job.options.threads);
+  job.options.pillars = options.value("pillars", job.options.pillars);
+  job.options.cache_bytes = options.value("cache", job.options.cache_bytes);
   options.at("compute").get_to(job.options.compute);
   if (!options.at("velocity").is_null()) job.velocity = options.at("velocity").get<double>();
   if (job.velocity && !(*job.velocity > 0)) throw bad("the velocity must be positive");
@@ -115,6 +117,8 @@ void write_job(const Job& job, const std::filesystem::path& path) {
                     {"balance", job.options.balance},
                     {"voxelizer", job.options.voxelizer},
                     {"threads", job.options.threads},
+                    {"pillars", job.options.pillars},
+                    {"cache", job.options.cache_bytes},
                     {"compute", job.options.compute},
                     {"velocity", optional_number(job.velocity)}}},
                   {"output", job.output.string()},

@@ -166,8 +166,9 @@ Json result_of(const session::Job& job, const std::vector<std::size_t>& faults) 
               {"voxels", voxels},
               {"checksum", to_hex(extract::checksum_of(faces, statistics))},
               {"voxelizer", job.options.voxelizer}};
-  for (const char* unknown : {"ranks", "threads", "exchange", "balance", "seconds", "bytes_sent", "messages",
-                              "load_max_over_mean"}) {
+  for (const char* unknown :
+       {"ranks", "threads", "exchange", "balance", "seconds", "bytes_sent", "messages", "load_max_over_mean",
+        "load_deviation", "pillars", "cache_hits", "cache_voxels", "quickest_seconds"}) {
     result[unknown] = nullptr;
   }
   const fs::path path = job.output / "result.json";

@@ -7,6 +7,8 @@
 #include <numeric>
 
 #include "engine/comm/rank_grid.h"
+#include "engine/extract/choice.h"
+#include "engine/extract/exchange/exchange.h"
 #include "engine/extract/extract.h"
 #include "engine/extract/fold_rows.h"
 #include "engine/session/launcher.h"
@@ -112,14 +114,16 @@ void sum_bytes(const session::Job& job, const comm::RankGrid& grid, const volume
   constexpr auto kFloat = static_cast<std::int64_t>(sizeof(float));
   Forecast::Memory& memory = out.memory;
   for (int rank = 0; rank < grid.ranks(); ++rank) {
-    const survey::Box own = grid.box(rank);
-    if (own.empty()) continue;
-    memory.bricks = std::max(memory.bricks, (own.size(0) + 2) * (own.size(1) + 2) * own.size(2) * kFloat);
-    each_slab(with_halo(own, grid.dims()), [&](const survey::Box& slab) {
-      out.bytes_to_read += bytes_of(chunks, slab);
-      // The slab itself, and the chunks that it is cut from.
-      memory.reading = std::max(memory.reading, slab.count() * kFloat + bytes_of(chunks, slab));
-    });
+    std::int64_t bricks = 0;
+    for (const survey::Box& own : grid.boxes(rank)) {
+      bricks += (own.size(0) + 2) * (own.size(1) + 2) * own.size(2) * kFloat;
+      each_slab(with_halo(own, grid.dims()), [&](const survey::Box& slab) {
+        out.bytes_to_read += bytes_of(chunks, slab);
+        // The slab itself, and the chunks that it is cut from.
+        memory.reading = std::max(memory.reading, slab.count() * kFloat + bytes_of(chunks, slab));
+      });
+    }
+    memory.bricks = std::max(memory.bricks, bricks);
   }
   memory.program = kProgramBytes;
   // The file's bytes, the faces of every fault, and those of the group that is being computed.
@@ -129,10 +133,14 @@ void sum_bytes(const session::Job& job, const comm::RankGrid& grid, const volume
   for (const session::JobFault& fault : job.faults)
     group = std::max(group, static_cast<std::int64_t>(fault.faces.size()));
   group = std::min(group, out.faces);
-  const bool voxels_move = job.options.exchange == "minimum";
+  const extract::Choice exchange = extract::parse_choice(job.options.exchange);
+  const bool voxels_move = exchange.name != "auto" && extract::exchange_strategy(exchange.name).moves_voxels;
   const std::int64_t sent = (voxels_move ? out.voxels * kVoxelBytes : group * kRecordBytes) / out.ranks;
+  // At one rank nothing moves; else what is kept of others' voxels grows to its limit at most.
+  const std::int64_t kept =
+      voxels_move && out.ranks > 1 ? std::min(job.options.cache_bytes, out.voxels * kFloat) : 0;
   memory.exchange =
-      2 * sent + (out.faces + group) * static_cast<std::int64_t>(sizeof(extract::FaceStatistics));
+      2 * sent + kept + (out.faces + group) * static_cast<std::int64_t>(sizeof(extract::FaceStatistics));
 }
 
 struct Rates {
@@ -214,7 +222,7 @@ Forecast forecast(const session::Job& job, const session::LaunchOptions& launch,
 
   const volume::VolumeReader reader(job.volume);
   const volume::ChunkGrid chunks{reader.info().dims, reader.info().chunk};
-  const comm::RankGrid grid(reader.info().dims, out.ranks);
+  const comm::RankGrid grid(reader.info().dims, out.ranks, job.options.pillars);
   count_voxels(job, grid, context.part(0, 0.7), out);
   sum_bytes(job, grid, chunks, out);
   const Rates rates = measured(job, reader, chunks, context.part(0.7, 1));

@@ -1,8 +1,10 @@
 // footwall extract: EXTRACT-ALL on the engine, the result attached to the project; or a forecast of it; or
 // the job as a folder.
 #include <fmt/format.h>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "app/footwall/commands/commands.h"
 #include "app/footwall/commands/launch_options.h"
@@ -17,15 +19,46 @@ namespace footwall::commands {
 namespace {
 
 struct Options {
-  std::string project, compute, job_folder;
+  std::string project, compute, job_folder, pillars;
+  std::optional<double> memory_mb;
   bool dry_run = false;
   bool with_volume = false;
   EngineOptions engine;
   tasks::ExtractOptions how;
 };
 
+// "2x3": of a rank along inlines and along crosslines.
+std::array<int, 2> pillars_from(const std::string& text) {
+  const std::vector<std::string_view> parts = text::split(text, 'x');
+  std::array<int, 2> pillars{};
+  bool good = parts.size() == pillars.size();
+  for (std::size_t axis = 0; good && axis < pillars.size(); ++axis) {
+    const auto number = text::number(parts[axis]);
+    good = number && *number >= 1 && *number <= 1024 && *number == std::floor(*number);
+    if (good) pillars[axis] = static_cast<int>(*number);
+  }
+  if (!good) {
+    throw Error(ErrorCode::kUsage, fmt::format("--pillars '{}' is not two numbers", text),
+                "give those along inlines and along crosslines, from 1 to 1024, such as 2x2");
+  }
+  return pillars;
+}
+
 void check(Options& options) {
   options.how.launch = options.engine.launch();
+  if (!options.pillars.empty()) options.how.engine.pillars = pillars_from(options.pillars);
+  if (options.memory_mb) {
+    constexpr double kMost = 1e9;
+    if (!(*options.memory_mb >= 0 && *options.memory_mb <= kMost)) {
+      throw Error(ErrorCode::kUsage, fmt::format("--memory {} is no amount of memory", *options.memory_mb),
+                  "give megabytes, 0 to keep nothing");
+    }
+    options.how.engine.cache_bytes = static_cast<std::int64_t>(*options.memory_mb * 1e6);
+  }
+  const double snr = options.how.engine.snr;
+  if (!(snr >= 0 && std::isfinite(snr))) {
+    throw Error(ErrorCode::kUsage, fmt::format("--snr {} is no ratio", snr), "give decibels, such as 30");
+  }
   if (options.how.velocity && !(*options.how.velocity > 0 && std::isfinite(*options.how.velocity))) {
     throw Error(ErrorCode::kUsage, fmt::format("--velocity {} is no velocity", *options.how.velocity),
                 "give a number above 0, in m/s");
@@ -179,6 +212,13 @@ void add_extract(console::Program& program) {
                       "Which voxels a face cuts: " + names(extract::voxelizer_rows()) + " (default exact)");
   command->add_option("--compute", options->compute,
                       "Statistics, comma separated: " + names(extract::statistic_rows()) + " (default: all)");
+  command->add_option("--pillars", options->pillars,
+                      "AxB: cut each rank's part into A x B pillars that lie between those of others, which "
+                      "evens out crowded surveys (default 1x1)");
+  command->add_option("--memory", options->memory_mb,
+                      "MB of other ranks' voxels that a rank keeps, where voxels move (default 1074)");
+  command->add_option("--snr", how.engine.snr,
+                      "dB: how true a computation that loses precision must stay (lot)");
   command->add_option("--velocity", how.velocity,
                       "m/s: gives area and dip in metres and degrees in a time survey");
   command->add_flag("--dry-run", options->dry_run,

@@ -39,6 +39,10 @@ void add_result(const console::Json& result, console::Json& output) {
                           "seconds", "bytes_sent", "messages", "load_max_over_mean", "checksum"}) {
     output[key] = result.at(key);
   }
+  // A job that ended under an older program does not have these.
+  for (const char* key : {"load_deviation", "pillars", "cache_hits", "cache_voxels", "quickest_seconds"}) {
+    output[key] = result.value(key, console::Json());
+  }
 }
 
 std::string result_in_words(const console::Json& result) {

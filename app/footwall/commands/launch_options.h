@@ -16,7 +16,8 @@ struct EngineOptions {
 };
 
 // The numbers of result.json that commands print, null where a job does not know them: faces, voxels, ranks,
-// threads, exchange, balance, voxelizer, seconds, bytes_sent, messages, load_max_over_mean, checksum.
+// threads, exchange, balance, voxelizer, seconds, bytes_sent, messages, load_max_over_mean, load_deviation,
+// pillars, cache_hits, cache_voxels, quickest_seconds, checksum.
 void add_result(const console::Json& result, console::Json& output);
 // "1200 faces, 54321 voxels on 4 ranks in 0.52 s; checksum 0123456789abcdef"
 std::string result_in_words(const console::Json& result);

@@ -1,5 +1,6 @@
 // What every exchange strategy is given and gives back.
 #pragma once
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "engine/extract/cache/voxel_cache.h"
 #include "engine/extract/choice.h"
 #include "engine/extract/computations.h"
+#include "engine/extract/exchange/kept.h"
 #include "engine/extract/extract.h"
 #include "engine/extract/face.h"
 
@@ -29,6 +31,7 @@ struct Setup {
   // What needs a face's voxels on its responsible rank; none for a strategy that moves no voxels.
   std::span<const Computation* const> whole_face;
   int threads;
+  Kept& kept;
   const JobContext& job;
 
   const Face& face(std::size_t n) const { return input.faces[n]; }
@@ -57,6 +60,9 @@ struct Outcome {
   Seconds seconds;              // of this rank
   std::int64_t cache_hits = 0;  // filled in by the caller, from Setup::cache
   std::int64_t cache_voxels = 0;
+  // What ended the work of this rank alone, where the strategy took part in all its messages nevertheless:
+  // the driver agrees on it after the last one. A strategy that agrees by itself throws instead.
+  std::optional<Error> failure;
 };
 
 // Whether the whole closed triangle lies in the survey's box.

@@ -1,10 +1,12 @@
 // Owners fold their own voxels into exact partial sums; these, not voxels, go to the responsible ranks.
-// Steps: 1 voxelize: every rank walks the part of every face that lies in its own columns; 2 exchange: one
-// round of records; 3 compute: the responsible rank merges and finishes.
+// Every rank knows the faces and the boxes of all ranks: a face's bounding box says who may have sums of it,
+// so that messages go between those pairs of ranks alone, and no size is asked for. Where a rank is
+// responsible for what only it folds (always, on one rank), the sums become statistics on the spot.
+// Steps: 1 deal: who folds and who sends what; 2 voxelize: every rank walks the part of every face that lies
+// in its own columns; 3 exchange: one round of records; 4 compute: the responsible rank merges and finishes.
 #include <omp.h>
 
-#include "engine/extract/exchange/exchange.h"
-#include "engine/extract/fold_rows.h"
+#include "engine/extract/exchange/reduce_buffers.h"
 #include "engine/extract/parallel_faces.h"
 #include "engine/voxelize/exact.h"
 #include "engine/voxelize/registry.h"
@@ -12,93 +14,232 @@
 namespace footwall::extract {
 namespace {
 
-// A thread's tools and what it has to send.
-struct Worker {
-  std::unique_ptr<voxelize::Voxelizer> voxelizer;
-  std::vector<std::unique_ptr<RowFolder>> folders;  // one for each block
-  std::vector<comm::Bytes> outgoing;
-  std::int64_t walked = 0;
-};
+using Task = ReduceBuffers::Task;
 
-std::vector<comm::Bytes> fold_own(const Setup& setup, std::int64_t& walked) {
-  const auto ranks = static_cast<std::size_t>(setup.world.size());
-  std::vector<comm::Bytes> outgoing(ranks);
-  const std::span<const Block> blocks = setup.blocks.all();
-  if (blocks.empty()) return outgoing;
+// Fewer faces than this need so little memory that its lack may end the job without agreement.
+constexpr std::size_t kFewFaces = 4096;
 
-  std::vector<Worker> workers(static_cast<std::size_t>(setup.threads));
-  for (Worker& worker : workers) {
-    worker.voxelizer = voxelize::make_voxelizer(setup.options.voxelizer);
-    for (const Block& block : blocks) {
-      worker.folders.push_back(std::make_unique<RowFolder>(block, setup.with_discontinuity, setup.scale));
-    }
-    worker.outgoing.resize(ranks);
-  }
-  parallel_faces(setup.input.faces.size(), setup.threads, setup.job, "voxelize",
-                 [&](std::size_t thread, std::size_t n) {
-                   const survey::LatticeTriangle& triangle = setup.face(n).triangle;
-                   const survey::Box around = voxelize::bounding_voxels(triangle);
-                   Worker& worker = workers[thread];
-                   Partial partial;
-                   for (std::size_t b = 0; b < blocks.size(); ++b) {
-                     if (survey::intersection(around, blocks[b].own()).empty()) continue;
-                     worker.voxelizer->rows(triangle, blocks[b].own(), *worker.folders[b]);
-                     partial.merge(worker.folders[b]->take());
-                   }
-                   if (partial.voxels() == 0) return;
-                   worker.walked += partial.voxels();
-                   encode(static_cast<std::int64_t>(n), partial,
-                          worker.outgoing[static_cast<std::size_t>(setup.responsible[n])]);
-                 });
-  for (Worker& worker : workers) {
-    walked += worker.walked;
-    for (std::size_t r = 0; r < ranks; ++r) {
-      outgoing[r].insert(outgoing[r].end(), worker.outgoing[r].begin(), worker.outgoing[r].end());
-      worker.outgoing[r] = {};
+// Calls visit(rank) once for each rank with columns in the box, which lies in the survey and is not empty.
+template <typename Visit>
+void each_owner(const comm::RankGrid& grid, const survey::Box& box, Visit&& visit) {
+  const auto [rows, columns] = grid.lines();
+  const auto [rows_of_ranks, columns_of_ranks] = grid.parts();
+  const std::int64_t first_row = box.lo[0] / rows;
+  const std::int64_t first_column = box.lo[1] / columns;
+  const std::int64_t row_count =
+      std::min<std::int64_t>((box.hi[0] - 1) / rows - first_row + 1, rows_of_ranks);
+  const std::int64_t column_count =
+      std::min<std::int64_t>((box.hi[1] - 1) / columns - first_column + 1, columns_of_ranks);
+  for (std::int64_t a = 0; a < row_count; ++a) {
+    for (std::int64_t b = 0; b < column_count; ++b) {
+      visit(static_cast<int>((first_row + a) % rows_of_ranks * columns_of_ranks +
+                             (first_column + b) % columns_of_ranks));
     }
   }
-  return outgoing;
 }
 
-std::vector<Finished> merge_all(const Setup& setup, const std::vector<comm::Bytes>& incoming) {
-  const std::size_t faces = setup.input.faces.size();
-  std::vector<std::int64_t> slot(faces, -1);
-  std::vector<Finished> finished;
-  for (std::size_t n = 0; n < faces; ++n) {
-    if (!setup.mine(n)) continue;
-    slot[n] = static_cast<std::int64_t>(finished.size());
-    finished.push_back({static_cast<std::int64_t>(n), {}});
+ReduceBuffers::Partner& partner(ReduceBuffers& kept, int rank) {
+  std::int32_t& number = kept.partner_of_rank[static_cast<std::size_t>(rank)];
+  if (number < 0) {
+    number = static_cast<std::int32_t>(kept.partners.size());
+    kept.partners.push_back({rank});
   }
-  std::vector<Partial> partials(finished.size());
-  for (const comm::Bytes& bytes : incoming) {
-    std::span<const std::byte> rest(bytes);
-    while (!rest.empty()) {
-      Partial part;
-      const std::int64_t face = decode(rest, part);
-      require(
-          face >= 0 && static_cast<std::size_t>(face) < faces && slot[static_cast<std::size_t>(face)] >= 0,
-          "partial sums of a face of this rank");
-      partials[static_cast<std::size_t>(slot[static_cast<std::size_t>(face)])].merge(part);
+  return kept.partners[static_cast<std::size_t>(number)];
+}
+
+// Step 1: the tasks of this rank, the most records for each pair, and room for what comes.
+void deal(const Setup& setup, ReduceBuffers& kept, std::vector<Finished>& finished) {
+  const int me = setup.world.rank();
+  const std::size_t faces = setup.input.faces.size();
+  const survey::Box survey{{0, 0, 0}, setup.grid.dims()};
+  kept.make_workers(setup);
+  kept.tasks.clear();
+  kept.partners.clear();
+  kept.partner_of_rank.assign(static_cast<std::size_t>(setup.world.size()), -1);
+  kept.task_of_face.assign(setup.world.size() > 1 ? faces : 0, -1);
+  std::int32_t shared = 0;
+  for (std::size_t n = 0; n < faces; ++n) {
+    const survey::Box box = survey::intersection(voxelize::bounding_voxels(setup.face(n).triangle), survey);
+    const bool mine = setup.mine(n);
+    bool own = false;
+    bool others = false;
+    if (!box.empty()) {
+      each_owner(setup.grid, box, [&](int rank) {
+        own = own || rank == me;
+        if (!mine || rank == me) return;
+        others = true;
+        ++partner(kept, rank).from;
+      });
+    }
+    if (!mine && !own) continue;
+    Task task{static_cast<std::int64_t>(n)};
+    task.own_voxels = own;
+    if (mine) {
+      task.slot = static_cast<std::int64_t>(finished.size());
+      finished.push_back({task.face, {}});
+      if (others) {
+        task.shared = shared++;
+        kept.task_of_face[n] = static_cast<std::int64_t>(kept.tasks.size());
+      }
+    } else {
+      ++partner(kept, setup.responsible[n]).to;
+      task.partner = kept.partner_of_rank[static_cast<std::size_t>(setup.responsible[n])];
+    }
+    kept.tasks.push_back(task);
+  }
+  kept.partials.assign(static_cast<std::size_t>(shared), {});
+  const std::size_t most = most_bytes(setup.with_discontinuity);
+  if (kept.rooms.size() < kept.partners.size()) kept.rooms.resize(kept.partners.size());
+  kept.incoming.clear();
+  kept.outgoing.clear();
+  kept.outgoing.reserve(kept.partners.size());
+  for (ReduceBuffers::Worker& worker : kept.workers) {
+    worker.walked = 0;
+    if (worker.records.size() < kept.partners.size()) worker.records.resize(kept.partners.size());
+    for (std::vector<std::byte>& records : worker.records) records.clear();
+  }
+  for (std::size_t p = 0; p < kept.partners.size(); ++p) {
+    const ReduceBuffers::Partner& from = kept.partners[p];
+    if (from.from == 0) continue;
+    kept.incoming.push_back({from.rank, kept.rooms[p].of(from.from * most)});
+  }
+}
+
+// Step 2.
+void fold_own(const Setup& setup, ReduceBuffers& kept, std::vector<Finished>& finished) {
+  setup.job.check();  // also where there is no face
+  const std::span<const Block> blocks = setup.blocks.all();
+  const int threads = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(setup.threads),
+                                                             std::max<std::size_t>(1, kept.tasks.size())));
+  parallel_faces(kept.tasks.size(), threads, setup.job, "voxelize", [&](std::size_t thread, std::size_t n) {
+    const Task& task = kept.tasks[n];
+    const survey::LatticeTriangle& triangle = setup.face(static_cast<std::size_t>(task.face)).triangle;
+    ReduceBuffers::Worker& worker = kept.workers[thread];
+    Partial partial;
+    if (task.own_voxels) {
+      const survey::Box around = voxelize::bounding_voxels(triangle);
+      for (std::size_t b = 0; b < blocks.size(); ++b) {
+        if (survey::intersection(around, blocks[b].own()).empty()) continue;
+        worker.voxelizer->rows(triangle, blocks[b].own(), *worker.folders[b]);
+        partial.merge(worker.folders[b]->take());
+      }
+      worker.walked += partial.voxels();
+    }
+    if (task.partner >= 0) {
+      if (partial.voxels() > 0)
+        encode(task.face, partial, worker.records[static_cast<std::size_t>(task.partner)]);
+    } else if (task.shared >= 0) {
+      kept.partials[static_cast<std::size_t>(task.shared)] = partial;
+    } else {
+      finished[static_cast<std::size_t>(task.slot)].statistics =
+          finish(partial, inside(triangle, setup.input.dims));
+    }
+  });
+}
+
+// The records for each partner, one thread's behind the other's.
+void put_together(ReduceBuffers& kept) {
+  ReduceBuffers::Worker& first = kept.workers.front();
+  for (std::size_t p = 0; p < kept.partners.size(); ++p) {
+    for (std::size_t w = 1; w < kept.workers.size(); ++w) {
+      const std::vector<std::byte>& more = kept.workers[w].records[p];
+      first.records[p].insert(first.records[p].end(), more.begin(), more.end());
     }
   }
-  parallel_faces(finished.size(), setup.threads, setup.job, "compute", [&](std::size_t, std::size_t n) {
-    const auto face = static_cast<std::size_t>(finished[n].face);
-    finished[n].statistics = finish(partials[n], inside(setup.face(face).triangle, setup.input.dims));
-  });
-  return finished;
+}
+
+// Step 3. A rank that failed sends empty messages, so that nobody waits.
+void send_and_receive(const Setup& setup, ReduceBuffers& kept, bool failed) {
+  const std::size_t most = most_bytes(setup.with_discontinuity);
+  for (std::size_t p = 0; p < kept.partners.size(); ++p) {
+    const ReduceBuffers::Partner& to = kept.partners[p];
+    if (to.to == 0) continue;
+    std::span<const std::byte> bytes;
+    if (!failed) bytes = kept.workers.front().records[p];
+    kept.outgoing.push_back({to.rank, bytes, to.to * most});
+  }
+  if (!kept.partners.empty()) setup.world.exchange_known(kept.outgoing, kept.incoming);
+}
+
+// Step 4.
+void merge_all(const Setup& setup, ReduceBuffers& kept, std::vector<Finished>& finished) {
+  for (const comm::KnownIncoming& message : kept.incoming) {
+    std::span<const std::byte> rest = message.room.first(message.received);
+    while (!rest.empty()) {
+      Partial part;
+      const auto face = static_cast<std::size_t>(decode(rest, part));
+      require(face < kept.task_of_face.size() && kept.task_of_face[face] >= 0,
+              "partial sums of a face of this rank");
+      const Task& task = kept.tasks[static_cast<std::size_t>(kept.task_of_face[face])];
+      kept.partials[static_cast<std::size_t>(task.shared)].merge(part);
+    }
+  }
+  for (const Task& task : kept.tasks) {
+    if (task.shared < 0) continue;
+    finished[static_cast<std::size_t>(task.slot)].statistics =
+        finish(kept.partials[static_cast<std::size_t>(task.shared)],
+               inside(setup.face(static_cast<std::size_t>(task.face)).triangle, setup.input.dims));
+  }
 }
 
 }  // namespace
 
+std::span<std::byte> Room::of(std::size_t bytes) {
+  if (size_ < bytes) {
+    bytes_ = std::make_unique_for_overwrite<std::byte[]>(bytes);
+    size_ = bytes;
+  }
+  return {bytes_.get(), bytes};
+}
+
+void ReduceBuffers::make_workers(const Setup& setup) {
+  const bool same = voxelizer_ == setup.options.voxelizer && scale_ == setup.scale &&
+                    with_discontinuity_ == setup.with_discontinuity &&
+                    workers.size() == static_cast<std::size_t>(setup.threads);
+  if (same) return;
+  workers.clear();
+  for (int n = 0; n < setup.threads; ++n) {
+    Worker worker;
+    worker.voxelizer = voxelize::make_voxelizer(setup.options.voxelizer);
+    for (const Block& block : setup.blocks.all())
+      worker.folders.push_back(std::make_unique<RowFolder>(block, setup.with_discontinuity, setup.scale));
+    workers.push_back(std::move(worker));
+  }
+  voxelizer_ = setup.options.voxelizer;
+  scale_ = setup.scale;
+  with_discontinuity_ = setup.with_discontinuity;
+}
+
+Kept::Kept() = default;
+Kept::~Kept() = default;
+
 Outcome exchange_reduce(const Setup& setup) {
   Outcome outcome;
   const double start = omp_get_wtime();
-  std::vector<comm::Bytes> outgoing =
-      setup.world.collectively([&] { return fold_own(setup, outcome.walked); });
+  if (!setup.kept.reduce) setup.kept.reduce = std::make_unique<ReduceBuffers>();
+  ReduceBuffers& kept = *setup.kept.reduce;
+  const auto dealt = [&] { deal(setup, kept, outcome.finished); };
+  if (setup.input.faces.size() < kFewFaces) {
+    dealt();
+  } else {
+    setup.world.collectively(dealt);
+  }
+  try {
+    fold_own(setup, kept, outcome.finished);
+    put_together(kept);
+  } catch (...) {
+    outcome.failure = comm::current_error();
+    kept.workers.clear();  // they hold half a face
+  }
   const double voxelized = omp_get_wtime();
-  const std::vector<comm::Bytes> incoming = setup.world.exchange(std::move(outgoing));
+  send_and_receive(setup, kept, outcome.failure.has_value());
   const double exchanged = omp_get_wtime();
-  outcome.finished = setup.world.collectively([&] { return merge_all(setup, incoming); });
+  try {
+    if (!outcome.failure) merge_all(setup, kept, outcome.finished);
+  } catch (...) {
+    outcome.failure = comm::current_error();
+  }
+  for (const ReduceBuffers::Worker& worker : kept.workers) outcome.walked += worker.walked;
   outcome.seconds.voxelize = voxelized - start;
   outcome.seconds.exchange = exchanged - voxelized;
   outcome.seconds.compute = omp_get_wtime() - exchanged;

@@ -7,27 +7,11 @@
 
 #include "engine/comm/communicator.h"
 #include "engine/extract/face.h"
+#include "engine/extract/face_changes.h"
 #include "engine/mesh/model.h"
 #include "storage/base/error.h"
 
 namespace footwall::extract {
-
-// A face's name without its corners: that of Face.
-struct FaceIdentity {
-  std::int64_t fault = 0;
-  std::int64_t owner = 0;
-  std::int32_t n = 0;
-  friend auto operator<=>(const FaceIdentity&, const FaceIdentity&) = default;
-};
-
-// What is not as it was, each face in one list, ascending by identity; added and changed faces as they are
-// now.
-struct FaceChanges {
-  std::vector<Face> added;
-  std::vector<Face> changed;
-  std::vector<FaceIdentity> removed;
-  bool empty() const { return added.empty() && changed.empty() && removed.empty(); }
-};
 
 // A face of mesh m with id f is the Face (fault m, owner 0, n f).
 class SharedModel {

@@ -112,6 +112,15 @@ void encode(std::int64_t face, const Partial& partial, std::vector<std::byte>& o
   if (partial.discontinuity.den != 0) put_sum(partial.discontinuity.num, out);
 }
 
+std::size_t most_bytes(bool with_discontinuity) {
+  constexpr std::size_t kNumber = 10;  // bytes of a 64-bit number, 7 bits each
+  constexpr std::size_t kSumHead = 2;
+  constexpr std::size_t kSum = kSumHead + sizeof(Int128);
+  constexpr std::size_t kMoments =
+      2 * sizeof(float) + 2 * kSumHead + 8 * WideInteger<5>::kWords + 8 * WideInteger<10>::kWords;
+  return 3 * kNumber + kMoments + (with_discontinuity ? 2 * kSum : kSumHead);
+}
+
 std::int64_t decode(std::span<const std::byte>& bytes, Partial& partial) {
   partial = {};
   const auto face = static_cast<std::int64_t>(take_number(bytes));

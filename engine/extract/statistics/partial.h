@@ -24,6 +24,8 @@ struct Partial {
 // Appends the face's number and its partial sums: integers without their leading and trailing zero bytes,
 // about 50 bytes for seismic amplitudes, 70 with discontinuity.
 void encode(std::int64_t face, const Partial& partial, std::vector<std::byte>& out);
+// The most bytes that a record can have: what both sides know of it beforehand.
+std::size_t most_bytes(bool with_discontinuity);
 // Takes one record off the front of `bytes`. Throws Error kInternal where they are not what encode() wrote.
 std::int64_t decode(std::span<const std::byte>& bytes, Partial& partial);
 

@@ -227,13 +227,14 @@ struct Bench {
     sent.begin_extraction();
     return exchange_strategy(choice.name)
         .run({world, grid, blocks, cache, sent, input, responsible, options, choice, with_discontinuity,
-              discontinuity_scale(input.max_abs), whole_face, 1, job});
+              discontinuity_scale(input.max_abs), whole_face, 1, kept, job});
   }
   comm::RankGrid grid;
   comm::Communicator world;
   Blocks blocks;
   VoxelCache cache;
   SentRecord sent;
+  Kept kept;
 };
 
 TEST(ExchangeTraffic, IsWhatTheProfilingLayerCounts) {
