@@ -33,7 +33,6 @@ using Lanes = hn::CappedTag<float, kBands>;
 // The 8 coefficients of taps[0, 16).
 HWY_INLINE void along(const float* HWY_RESTRICT taps, const Table& table, float* HWY_RESTRICT out) {
   const Lanes d;
-  const hn::Repartition<std::uint64_t, Lanes> pair;
   const std::size_t lanes = hn::Lanes(d);
   HWY_ALIGN float folded[2 * kBands];  // sum, difference, sum, difference ...
   for (std::size_t t = 0; t < kBands; t += lanes) {
@@ -44,9 +43,14 @@ HWY_INLINE void along(const float* HWY_RESTRICT taps, const Table& table, float*
   for (std::size_t k = 0; k < kBands; k += lanes) {
     auto sum = hn::Zero(d);
     for (std::size_t t = 0; t < kBands; ++t) {
+#if HWY_TARGET == HWY_SCALAR
+      const auto value = hn::Set(d, folded[2 * t + k % 2]);
+#else
+      const hn::Repartition<std::uint64_t, Lanes> pair;
       std::uint64_t both = 0;
       hwy::CopyBytes<sizeof both>(folded + 2 * t, &both);
       const auto value = hn::BitCast(d, hn::Set(pair, both));
+#endif
       const auto term = hn::Mul(value, hn::Load(d, table.weight[t] + k));
       sum = t == 0 ? term : hn::Add(sum, term);
     }
