@@ -9,23 +9,21 @@
 #include <tuple>
 
 #include "engine/extract/balance/balance.h"
+#include "engine/extract/computations.h"
 #include "engine/extract/exchange/exchange.h"
 #include "engine/extract/registry.h"
 #include "engine/extract/statistics/discontinuity.h"
+#include "engine/voxelize/registry.h"
 #include "engine/voxelize/simd.h"
 #include "storage/base/hash.h"
 
 namespace footwall::extract {
 namespace {
 
-bool computes_discontinuity(const Options& options) {
-  return options.compute.empty() ||
-         std::find(options.compute.begin(), options.compute.end(), "discontinuity") != options.compute.end();
-}
-
-// Reads wanted() in slabs of whole chunks of inlines; every rank makes the same number of calls.
-void read_block(const comm::Communicator& world, const ReadBox& read, const JobContext& job, Block& block) {
-  const survey::Box& wanted = block.wanted();
+// Reads wanted() in slabs of whole chunks of inlines; every rank makes the same number of calls. A rank that
+// has no such block takes part with an empty box.
+void read_block(const comm::Communicator& world, const ReadBox& read, const JobContext& job, Block* block) {
+  const survey::Box wanted = block == nullptr ? survey::Box{} : block->wanted();
   const std::int64_t first = wanted.empty() ? 0 : wanted.lo[0] / kSlabInlines;
   const std::int64_t last = wanted.empty() ? 0 : (wanted.hi[0] + kSlabInlines - 1) / kSlabInlines;
   const std::int64_t rounds = world.maximum(last - first);
@@ -41,7 +39,18 @@ void read_block(const comm::Communicator& world, const ReadBox& read, const JobC
       values.resize(static_cast<std::size_t>(slab.count()));
     });
     world.collectively([&] { read(slab, values); });  // throws on all ranks or on none, as promised
-    block.put(slab, values);
+    if (block != nullptr) block->put(slab, values);
+  }
+}
+
+void read_blocks(const comm::Communicator& world, const ReadBox& read, const JobContext& job,
+                 Blocks& blocks) {
+  const std::span<Block> own = blocks.all();
+  const auto most = static_cast<std::size_t>(world.maximum(static_cast<std::int64_t>(own.size())));
+  for (std::size_t n = 0; n < most; ++n) {
+    const double share = 1 / static_cast<double>(most);
+    const JobContext part = job.part(static_cast<double>(n) * share, static_cast<double>(n + 1) * share);
+    read_block(world, read, part, n < own.size() ? &own[n] : nullptr);
   }
 }
 
@@ -72,6 +81,52 @@ std::vector<FaceStatistics> gathered(comm::Communicator& world, const std::vecto
   });
 }
 
+// The whole-face results of all ranks at rank 0, one for each computation.
+std::vector<FaceBlobs> gathered_blobs(comm::Communicator& world, std::vector<FinishedBlob> mine,
+                                      std::span<const Computation* const> computations, std::size_t faces) {
+  struct Head {
+    std::int64_t face, computation, bytes;
+  };
+  const std::vector<comm::Bytes> parts = world.exchange(world.collectively([&] {
+    std::vector<comm::Bytes> outgoing(static_cast<std::size_t>(world.size()));
+    for (FinishedBlob& blob : mine) {
+      const Head head{blob.face, static_cast<std::int64_t>(blob.computation),
+                      static_cast<std::int64_t>(blob.bytes.size())};
+      const auto raw = std::as_bytes(std::span(&head, 1));
+      outgoing[0].insert(outgoing[0].end(), raw.begin(), raw.end());
+      outgoing[0].insert(outgoing[0].end(), blob.bytes.begin(), blob.bytes.end());
+      blob.bytes = {};
+    }
+    return outgoing;
+  }));
+  return world.collectively([&] {
+    std::vector<FaceBlobs> all;
+    if (world.rank() != 0) return all;
+    std::vector<std::vector<std::span<const std::byte>>> of(computations.size(),
+                                                            std::vector<std::span<const std::byte>>(faces));
+    for (const comm::Bytes& part : parts) {
+      for (std::size_t at = 0; at < part.size();) {
+        Head head{};
+        std::memcpy(&head, part.data() + at, sizeof head);
+        at += sizeof head;
+        of.at(static_cast<std::size_t>(head.computation)).at(static_cast<std::size_t>(head.face)) =
+            std::span(part).subspan(at, static_cast<std::size_t>(head.bytes));
+        at += static_cast<std::size_t>(head.bytes);
+      }
+    }
+    for (std::size_t c = 0; c < computations.size(); ++c) {
+      FaceBlobs& blobs = all.emplace_back();
+      blobs.computation = computations[c]->name;
+      blobs.offsets.push_back(0);
+      for (const std::span<const std::byte> bytes : of[c]) {
+        blobs.bytes.insert(blobs.bytes.end(), bytes.begin(), bytes.end());
+        blobs.offsets.push_back(blobs.bytes.size());
+      }
+    }
+    return all;
+  });
+}
+
 template <typename T>
 void append(T value, std::vector<std::byte>& bytes) {
   static_assert(std::endian::native == std::endian::little);
@@ -97,10 +152,23 @@ bool inside(const survey::LatticeTriangle& triangle, const survey::Index& dims) 
 }
 
 void validate(const Options& options) {
-  find_row(exchange_rows(), "exchange", options.exchange);
-  find_row(balance_rows(), "balance", options.balance);
-  for (const std::string& name : options.compute) find_row(statistic_rows(), "statistic", name);
+  const Choice exchange = parse_choice(options.exchange);
+  const Choice balance = parse_choice(options.balance);
+  find_row(exchange_rows(), "exchange", exchange.name);
+  exchange_strategy(exchange.name).check(exchange);
+  find_row(balance_rows(), "balance", balance.name);
+  balance_strategy(balance.name).check(balance);
+  for (const std::string& name : options.compute) computation(name);
   find_row(voxelizer_rows(), "voxelizer", options.voxelizer);
+  voxelize::make_voxelizer(options.voxelizer);
+  const std::vector<const Computation*> whole = whole_face_computations(options);
+  if (!whole.empty() && exchange.name != "auto" && !exchange_strategy(exchange.name).moves_voxels) {
+    throw Error(ErrorCode::kUsage,
+                "'" + std::string(whole.front()->name) + "' needs the voxels of a face, and exchange '" +
+                    exchange.name + "' moves none",
+                "use --exchange push");
+  }
+  for (const Computation* each : whole) each->make(options);
   if (options.threads < 1 || options.threads > 1024) {
     throw Error(ErrorCode::kUsage, "there cannot be " + std::to_string(options.threads) + " threads",
                 "give 1 to 1024 threads for each rank");
@@ -111,60 +179,63 @@ struct LoadedSurvey::State {
   State(const comm::Communicator& parent, const comm::RankGrid& its_grid)
       : grid(its_grid),
         world(parent, grid),
-        block(world.collectively([&] { return Block(grid.box(world.rank()), grid.dims()); })) {}
+        blocks(world.collectively([&] { return Blocks(grid, world.rank()); })) {}
   comm::RankGrid grid;
   comm::Communicator world;
-  Block block;
+  Blocks blocks;
   double read_seconds = 0;  // of this rank
 };
 
 LoadedSurvey::LoadedSurvey(const comm::Communicator& parent, const survey::Index& dims, const ReadBox& read,
-                           const JobContext& job) {
+                           const JobContext& job, std::array<int, 2> pillars) {
   const double start = omp_get_wtime();
   const comm::RankGrid grid = parent.collectively([&] {
     if (dims[0] < 1 || dims[1] < 1 || dims[2] < 1) {
       throw Error(ErrorCode::kInvalid, "the survey has no voxels");
     }
-    return comm::RankGrid(dims, parent.size());
+    return comm::RankGrid(dims, parent.size(), pillars);
   });
   state_ = std::make_unique<State>(parent, grid);
-  read_block(state_->world, read, job, state_->block);
+  read_blocks(state_->world, read, job, state_->blocks);
   state_->read_seconds = omp_get_wtime() - start;
 }
 
 LoadedSurvey::~LoadedSurvey() = default;
 
+const comm::RankGrid& LoadedSurvey::grid() const {
+  return state_->grid;
+}
+
 Result LoadedSurvey::extract(const Input& input, const Options& options, const JobContext& job) {
   const double start = omp_get_wtime();
   comm::Communicator& world = state_->world;
-  const bool with_discontinuity = computes_discontinuity(options);
+  const bool with_discontinuity = asks_for(options, "discontinuity");
+  const std::vector<const Computation*> whole_face = whole_face_computations(options);
+  const Choice balance = parse_choice(options.balance);
+  const Choice exchange_choice = parse_choice(options.exchange);
   double scale = 0;
   const std::vector<int> responsible = world.collectively([&] {
     validate(options);
     require(input.dims == state_->grid.dims(), "faces of the survey that was read");
     voxelize::apply_forced_simd();
     if (with_discontinuity) scale = discontinuity_scale(input.max_abs);
-    return balance_strategy(options.balance).run(state_->grid, input.faces);
+    return balance_strategy(balance.name).run({state_->grid, input.faces, balance, {}});
   });
+  const double balanced = omp_get_wtime();
   const comm::Traffic before = world.traffic();
 
   // 2 voxelize, 3 exchange, 4 compute
-  const Setup setup{world,
-                    state_->grid,
-                    state_->block,
-                    input,
-                    responsible,
-                    options.voxelizer,
-                    with_discontinuity,
-                    scale,
-                    options.threads,
-                    job};
-  const ExchangeStrategy& exchange = exchange_strategy(options.exchange);
-  const Outcome outcome = exchange.run(setup);
+  const Setup setup{world,           state_->grid,       state_->blocks, input,      responsible,     options,
+                    exchange_choice, with_discontinuity, scale,          whole_face, options.threads, job};
+  const ExchangeStrategy& exchange = exchange_strategy(exchange_choice.name);
+  Outcome outcome = exchange.run(setup);
   const comm::Traffic after = world.traffic();
 
   Result result;
   result.faces = gathered(world, outcome.finished, input.faces.size());
+  if (!whole_face.empty()) {
+    result.blobs = gathered_blobs(world, std::move(outcome.blobs), whole_face, input.faces.size());
+  }
   Report& report = result.report;
   report.exchange = exchange.name;
   report.balance = options.balance;
@@ -183,6 +254,7 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
       world.collectively([&] { return world.rank() == 0 ? checksum_of(input.faces, result.faces) : 0; }));
   report.checksum = static_cast<std::uint64_t>(world.sum(hash));  // the others add 0
   report.seconds.read = world.maximum(state_->read_seconds);
+  report.seconds.balance = world.maximum(balanced - start);
   report.seconds.voxelize = world.maximum(outcome.seconds.voxelize);
   report.seconds.exchange = world.maximum(outcome.seconds.exchange);
   report.seconds.compute = world.maximum(outcome.seconds.compute);
@@ -193,7 +265,7 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
 Result extract_all(const comm::Communicator& world, const Input& input, const Options& options,
                    const ReadBox& read, const JobContext& job) {
   world.collectively([&] { validate(options); });
-  LoadedSurvey survey(world, input.dims, read, job.part(0, 0.5));
+  LoadedSurvey survey(world, input.dims, read, job.part(0, 0.5), options.pillars);
   return survey.extract(input, options, job.part(0.5, 0.95));
 }
 

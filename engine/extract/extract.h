@@ -8,6 +8,7 @@
 
 #include "engine/comm/communicator.h"
 #include "engine/extract/face.h"
+#include "engine/extract/face_blobs.h"
 #include "storage/base/job_context.h"
 #include "storage/survey/box.h"
 
@@ -17,6 +18,12 @@ struct Input {
   survey::Index dims{0, 0, 0};  // of the survey; its voxels are [0, dims)
   double max_abs = 0;           // max |V| of the whole volume: scales the discontinuity's fixed point
   std::span<const Face> faces;  // the same on every rank
+};
+
+struct Result {
+  std::vector<FaceStatistics> faces;  // on rank 0 in the order of the input; empty elsewhere
+  std::vector<FaceBlobs> blobs;       // on rank 0, one for each whole-face computation asked for
+  Report report;                      // on every rank
 };
 
 // Gives the values of `box`, [inline][crossline][sample], NaN for nulls. Called collectively, equally often
@@ -33,8 +40,9 @@ class LoadedSurvey {
  public:
   // 1 read the rank's box and a halo of one trace. Collective; throws kInvalid (no voxels), kMemory,
   // kCancelled, and what `read` throws.
+  // pillars: of each rank along inlines and crosslines, see comm::RankGrid.
   LoadedSurvey(const comm::Communicator& parent, const survey::Index& dims, const ReadBox& read,
-               const JobContext& job = {});
+               const JobContext& job = {}, std::array<int, 2> pillars = {1, 1});
   ~LoadedSurvey();
   LoadedSurvey(const LoadedSurvey&) = delete;
   LoadedSurvey& operator=(const LoadedSurvey&) = delete;
@@ -42,6 +50,8 @@ class LoadedSurvey {
   // 2 voxelize; 3 exchange; 4 compute; then gather the results at rank 0. input.dims is that of the reading.
   // Collective; as extract_all. Report::seconds.read is that of the constructor, and part of the total.
   Result extract(const Input& input, const Options& options, const JobContext& job = {});
+
+  const comm::RankGrid& grid() const;
 
  private:
   struct State;

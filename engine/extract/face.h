@@ -1,5 +1,6 @@
 // What goes into EXTRACT-ALL and what comes out of it, as plain values.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -40,18 +41,23 @@ struct FaceStatistics {
 };
 
 struct Options {
-  std::string exchange = "auto";  // a name of exchange_rows()
-  std::string balance = "none";   // a name of balance_rows()
+  std::string exchange = "auto";  // a name of exchange_rows(), perhaps with parameters: "block=2"
+  std::string balance = "none";   // a name of balance_rows(), perhaps with parameters
   std::string voxelizer = "exact";
-  // Statistics to compute; empty = all. count, mean, variance, min and max come together.
+  // Names of computations.h; empty = those computed by default. count, mean, variance, min and max come
+  // together.
   std::vector<std::string> compute;
-  int threads = 1;  // OpenMP threads of each rank, at least 1
+  int threads = 1;                       // OpenMP threads of each rank, at least 1
+  std::array<int, 2> pillars{1, 1};      // of each rank along inlines and crosslines, see RankGrid
+  std::int64_t cache_bytes = 1LL << 30;  // limit of a rank's remote voxels
+  double snr = 0;                        // dB, for `lot`; 0 = not given
   friend bool operator==(const Options&, const Options&) = default;
 };
 
 // Seconds are of the slowest rank in each phase, amounts are sums over ranks.
 struct Seconds {
   double read = 0;
+  double balance = 0;   // who is responsible for what
   double voxelize = 0;  // voxelizing and, with `reduce`, folding on the way
   double exchange = 0;
   double compute = 0;
@@ -69,13 +75,15 @@ struct Report {
   std::int64_t bytes_sent = 0;   // by the exchange phase, sizes included
   std::int64_t messages = 0;
   double load_max_over_mean = 1;  // of the voxels each rank walked; 1 where there are none
+  double load_deviation = 0;      // standard deviation over ranks of the area (voxel^2) each is responsible
+                                  // for: seed 004, equation 5.4, of this extraction
+  std::int64_t cache_hits = 0;    // remote voxels that were still there from an earlier extraction
+  std::int64_t cache_voxels = 0;  // remote voxels kept, over all ranks
+  std::string reason;             // why `auto` chose what ran; empty where nothing was left to choose
+  Seconds predicted;              // by the cost model; zeros where it was not asked
+  Seconds quickest;               // as `seconds`, of the quickest rank
   std::uint64_t checksum = 0;     // of ids and statistics, see checksum_of()
   Seconds seconds;
-};
-
-struct Result {
-  std::vector<FaceStatistics> faces;  // on rank 0 in the order of the input; empty elsewhere
-  Report report;                      // on every rank
 };
 
 }  // namespace footwall::extract

@@ -6,20 +6,13 @@
 #include <vector>
 
 #include "engine/extract/balance/balance.h"
+#include "engine/extract/computations.h"
 #include "engine/extract/exchange/exchange.h"
 #include "engine/voxelize/registry.h"
 #include "storage/base/error.h"
 
 namespace footwall::extract {
 namespace {
-
-constexpr std::array kStatistics{
-    Row{"count", true, "voxels with a value"},
-    Row{"mean", true, "mean amplitude"},
-    Row{"variance", true, "sample variance of the amplitude"},
-    Row{"min", true, "smallest amplitude"},
-    Row{"max", true, "largest amplitude"},
-    Row{"discontinuity", true, "0 where the traces around are alike, towards 1 where they are not"}};
 
 template <class Strategy>
 std::vector<Row> rows_of(std::span<const Strategy> strategies) {
@@ -51,7 +44,12 @@ std::span<const Row> voxelizer_rows() {
   return rows;
 }
 std::span<const Row> statistic_rows() {
-  return kStatistics;
+  static const std::vector<Row> rows = [] {
+    std::vector<Row> known;
+    for (const Computation& each : computations()) known.push_back({each.name, each.built, each.help});
+    return known;
+  }();
+  return rows;
 }
 
 const Row& find_row(std::span<const Row> rows, std::string_view family, std::string_view text) {
@@ -69,9 +67,6 @@ const Row& find_row(std::span<const Row> rows, std::string_view family, std::str
   if (!row->built) {
     throw Error(ErrorCode::kUsage, std::string(family) + " '" + std::string(name) + "' is not built yet",
                 "choose one of: " + built);
-  }
-  if (equals != std::string_view::npos) {
-    throw Error(ErrorCode::kUsage, std::string(family) + " '" + std::string(name) + "' takes no parameter");
   }
   return *row;
 }

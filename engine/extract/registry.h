@@ -16,13 +16,13 @@ struct Row {
 std::span<const Row> exchange_rows();   // auto, reduce, minimum; block, bounding, push are not built
 std::span<const Row> balance_rows();    // none; minimal, global, local, manhattan are not built
 std::span<const Row> voxelizer_rows();  // those of engine/voxelize/registry.h
-std::span<const Row> statistic_rows();  // count, mean, variance, min, max, discontinuity
+std::span<const Row> statistic_rows();  // those of computations.h
 
 // Throws Error kUsage for names that are unknown or not built, and for impossible numbers.
 void validate(const Options& options);
 
-// The row of `text`, which may carry parameters ("block=8"); throws Error kUsage, listing the names, where
-// there is none or it is not built. `family` is the option's name, e.g. "exchange".
+// The row of `text`, which may carry parameters ("block=8": not looked at); throws Error kUsage, listing the
+// names, where there is none or it is not built. `family` is the option's name, e.g. "exchange".
 const Row& find_row(std::span<const Row> rows, std::string_view family, std::string_view text);
 
 }  // namespace footwall::extract

@@ -30,11 +30,16 @@ survey::Index centroid_voxel(const survey::LatticeTriangle& t, const survey::Ind
   return voxel;
 }
 
-std::vector<int> balance_none(const comm::RankGrid& grid, std::span<const Face> faces) {
-  std::vector<int> ranks(faces.size());
-  std::transform(faces.begin(), faces.end(), ranks.begin(),
+std::vector<int> balance_none(const BalanceInput& input) {
+  const comm::RankGrid& grid = input.grid;
+  std::vector<int> ranks(input.faces.size());
+  std::transform(input.faces.begin(), input.faces.end(), ranks.begin(),
                  [&](const Face& face) { return grid.owner(centroid_voxel(face.triangle, grid.dims())); });
   return ranks;
+}
+
+void check_none(const Choice& choice) {
+  choice.takes_at_most(0);
 }
 
 }  // namespace footwall::extract

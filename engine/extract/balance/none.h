@@ -1,10 +1,8 @@
 // No balancing: a face's centroid rank is responsible for it.
 #pragma once
-#include <span>
 #include <vector>
 
-#include "engine/comm/rank_grid.h"
-#include "engine/extract/face.h"
+#include "engine/extract/balance/balance.h"
 
 namespace footwall::extract {
 
@@ -12,7 +10,7 @@ namespace footwall::extract {
 // survey.
 survey::Index centroid_voxel(const survey::LatticeTriangle& triangle, const survey::Index& dims);
 
-// The responsible rank of every face. No communication: every rank gets the same.
-std::vector<int> balance_none(const comm::RankGrid& grid, std::span<const Face> faces);
+std::vector<int> balance_none(const BalanceInput& input);
+void check_none(const Choice& choice);
 
 }  // namespace footwall::extract

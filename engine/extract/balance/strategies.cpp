@@ -9,11 +9,12 @@ namespace footwall::extract {
 namespace {
 
 constexpr std::array kStrategies{
-    BalanceStrategy{"none", "the rank of a face's centroid is responsible for it", &balance_none},
-    BalanceStrategy{"minimal", "moves as few voxels as an even load needs", nullptr},
-    BalanceStrategy{"global", "faces of overloaded ranks go to any other", nullptr},
-    BalanceStrategy{"local", "faces of overloaded ranks go to neighbours", nullptr},
-    BalanceStrategy{"manhattan", "faces go to the nearest rank with room", nullptr}};
+    BalanceStrategy{"none", "the rank of a face's centroid is responsible for it", &balance_none,
+                    &check_none},
+    BalanceStrategy{"minimal", "moves as few voxels as an even load needs", nullptr, nullptr},
+    BalanceStrategy{"global", "faces of overloaded ranks go to any other", nullptr, nullptr},
+    BalanceStrategy{"local", "faces of overloaded ranks go to neighbours", nullptr, nullptr},
+    BalanceStrategy{"manhattan", "faces go to the nearest rank with room", nullptr, nullptr}};
 
 }  // namespace
 

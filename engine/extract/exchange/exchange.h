@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "engine/comm/communicator.h"
-#include "engine/extract/block.h"
+#include "engine/extract/blocks.h"
+#include "engine/extract/choice.h"
+#include "engine/extract/computations.h"
 #include "engine/extract/extract.h"
 #include "engine/extract/face.h"
 
@@ -14,17 +16,22 @@ namespace footwall::extract {
 struct Setup {
   comm::Communicator& world;
   const comm::RankGrid& grid;
-  const Block& block;
+  const Blocks& blocks;  // this rank's own voxels
   const Input& input;
   std::span<const int> responsible;  // of every face
-  std::string_view voxelizer;
+  const Options& options;
+  const Choice& choice;  // the strategy with its parameters
   bool with_discontinuity;
   double scale;  // discontinuity_scale()
+  // What needs a face's voxels on its responsible rank; none for a strategy that moves no voxels.
+  std::span<const Computation* const> whole_face;
   int threads;
   const JobContext& job;
 
   const Face& face(std::size_t n) const { return input.faces[n]; }
   bool mine(std::size_t n) const { return responsible[n] == world.rank(); }
+  // Traces around each voxel that are looked at.
+  std::int32_t reach() const { return with_discontinuity ? 1 : 0; }
 };
 
 // The statistics of one face, by its place in the input.
@@ -33,10 +40,18 @@ struct Finished {
   FaceStatistics statistics;
 };
 
+// The result of a whole-face computation for one face.
+struct FinishedBlob {
+  std::int64_t face = 0;
+  std::size_t computation = 0;  // its place in Setup::whole_face
+  std::vector<std::byte> bytes;
+};
+
 struct Outcome {
   std::vector<Finished> finished;  // the faces that this rank is responsible for
-  std::int64_t walked = 0;         // voxels that this rank voxelized
-  Seconds seconds;                 // of this rank
+  std::vector<FinishedBlob> blobs;
+  std::int64_t walked = 0;  // voxels that this rank voxelized
+  Seconds seconds;          // of this rank
 };
 
 // Whether the whole closed triangle lies in the survey's box.
@@ -46,12 +61,14 @@ bool inside(const survey::LatticeTriangle& triangle, const survey::Index& dims);
 Outcome exchange_reduce(const Setup& setup);
 Outcome exchange_minimum(const Setup& setup);
 
-// A strategy is one file in this folder and one row in strategies.cpp. run is null for one that is known by
-// name but not built.
+// A strategy is one file in this folder and one row in strategies.cpp. run and check are null for one that is
+// known by name but not built.
 struct ExchangeStrategy {
   std::string_view name;
   std::string_view help;
+  bool moves_voxels;  // so that whole-face computations can be done
   Outcome (*run)(const Setup& setup);
+  void (*check)(const Choice& choice);  // throws kUsage for parameters that it does not take
 };
 std::span<const ExchangeStrategy> exchange_strategies();
 // The one that runs for a name of exchange_rows(): never "auto" itself.

@@ -65,7 +65,7 @@ class Values {
   float at(const Coordinates& p) const {
     const survey::Index voxel = index_of(p);
     if (!survey_.contains(voxel)) return std::numeric_limits<float>::quiet_NaN();
-    if (setup_.block.has(voxel)) return setup_.block.data()[setup_.block.offset(voxel)];
+    if (const Block* block = setup_.blocks.holding(voxel)) return block->data()[block->offset(voxel)];
     const auto found = std::lower_bound(ids_.begin(), ids_.end(), p);
     require(found != ids_.end() && *found == p, "a voxel that was asked for");
     return values_[static_cast<std::size_t>(found - ids_.begin())];
@@ -90,9 +90,9 @@ Plan voxelize_mine(const Setup& setup) {
   }
   plan.voxels.resize(plan.faces.size());
   const survey::Box survey{{0, 0, 0}, setup.input.dims};
-  const std::int32_t reach = setup.with_discontinuity ? 1 : 0;
+  const std::int32_t reach = setup.reach();
   std::vector<std::unique_ptr<voxelize::Voxelizer>> voxelizers(static_cast<std::size_t>(setup.threads));
-  for (auto& voxelizer : voxelizers) voxelizer = voxelize::make_voxelizer(setup.voxelizer);
+  for (auto& voxelizer : voxelizers) voxelizer = voxelize::make_voxelizer(setup.options.voxelizer);
   std::vector<std::vector<Coordinates>> missing(voxelizers.size());
   parallel_faces(plan.faces.size(), setup.threads, setup.job, "voxelize",
                  [&](std::size_t thread, std::size_t n) {
@@ -104,7 +104,8 @@ Plan voxelize_mine(const Setup& setup) {
                        for (std::int32_t dj = -reach; dj <= reach; ++dj) {
                          const Coordinates neighbour{p[0] + di, p[1] + dj, p[2]};
                          const survey::Index voxel = index_of(neighbour);
-                         if (survey.contains(voxel) && !setup.block.has(voxel)) lacking.push_back(neighbour);
+                         if (survey.contains(voxel) && setup.blocks.holding(voxel) == nullptr)
+                           lacking.push_back(neighbour);
                        }
                      }
                    }
@@ -147,8 +148,9 @@ std::vector<comm::Bytes> answers_to(const Setup& setup, const std::vector<comm::
     answers[r].reserve(count * sizeof(float));
     for (std::size_t n = 0; n < count; ++n) {
       const survey::Index voxel = index_of(item<Coordinates>(requests[r], n));
-      require(setup.block.own().contains(voxel), "a request for a voxel of this rank");
-      append(setup.block.data()[setup.block.offset(voxel)], answers[r]);
+      const Block* block = setup.blocks.owning(voxel);
+      require(block != nullptr, "a request for a voxel of this rank");
+      append(block->data()[block->offset(voxel)], answers[r]);
     }
   }
   return answers;

@@ -15,7 +15,7 @@ namespace {
 // A thread's tools and what it has to send.
 struct Worker {
   std::unique_ptr<voxelize::Voxelizer> voxelizer;
-  std::unique_ptr<RowFolder> folder;
+  std::vector<std::unique_ptr<RowFolder>> folders;  // one for each block
   std::vector<comm::Bytes> outgoing;
   std::int64_t walked = 0;
 };
@@ -23,22 +23,28 @@ struct Worker {
 std::vector<comm::Bytes> fold_own(const Setup& setup, std::int64_t& walked) {
   const auto ranks = static_cast<std::size_t>(setup.world.size());
   std::vector<comm::Bytes> outgoing(ranks);
-  const survey::Box& own = setup.block.own();
-  if (own.empty()) return outgoing;
+  const std::span<const Block> blocks = setup.blocks.all();
+  if (blocks.empty()) return outgoing;
 
   std::vector<Worker> workers(static_cast<std::size_t>(setup.threads));
   for (Worker& worker : workers) {
-    worker.voxelizer = voxelize::make_voxelizer(setup.voxelizer);
-    worker.folder = std::make_unique<RowFolder>(setup.block, setup.with_discontinuity, setup.scale);
+    worker.voxelizer = voxelize::make_voxelizer(setup.options.voxelizer);
+    for (const Block& block : blocks) {
+      worker.folders.push_back(std::make_unique<RowFolder>(block, setup.with_discontinuity, setup.scale));
+    }
     worker.outgoing.resize(ranks);
   }
   parallel_faces(setup.input.faces.size(), setup.threads, setup.job, "voxelize",
                  [&](std::size_t thread, std::size_t n) {
                    const survey::LatticeTriangle& triangle = setup.face(n).triangle;
-                   if (survey::intersection(voxelize::bounding_voxels(triangle), own).empty()) return;
+                   const survey::Box around = voxelize::bounding_voxels(triangle);
                    Worker& worker = workers[thread];
-                   worker.voxelizer->rows(triangle, own, *worker.folder);
-                   const Partial partial = worker.folder->take();
+                   Partial partial;
+                   for (std::size_t b = 0; b < blocks.size(); ++b) {
+                     if (survey::intersection(around, blocks[b].own()).empty()) continue;
+                     worker.voxelizer->rows(triangle, blocks[b].own(), *worker.folders[b]);
+                     partial.merge(worker.folders[b]->take());
+                   }
                    if (partial.voxels() == 0) return;
                    worker.walked += partial.voxels();
                    encode(static_cast<std::int64_t>(n), partial,

@@ -10,16 +10,21 @@ namespace {
 // Partial sums always move less than voxels do, and all statistics there are can be folded.
 constexpr std::string_view kAuto = "reduce";
 
+void takes_nothing(const Choice& choice) {
+  choice.takes_at_most(0);
+}
+
 constexpr std::array kStrategies{
-    ExchangeStrategy{"auto", "the fastest that the statistics allow; at present reduce", &exchange_reduce},
-    ExchangeStrategy{"reduce", "owners fold their own voxels into exact partial sums; no voxel moves",
-                     &exchange_reduce},
+    ExchangeStrategy{"auto", "the fastest that the computations allow; at present reduce", false,
+                     &exchange_reduce, &takes_nothing},
+    ExchangeStrategy{"reduce", "owners fold their own voxels into exact partial sums; no voxel moves", false,
+                     &exchange_reduce, &takes_nothing},
     ExchangeStrategy{"minimum",
                      "the responsible rank asks the owners for the voxels that it lacks, by coordinates",
-                     &exchange_minimum},
-    ExchangeStrategy{"block", "like minimum, with blocks of voxels around each", nullptr},
-    ExchangeStrategy{"bounding", "owners send the faces' bounding volumes", nullptr},
-    ExchangeStrategy{"push", "owners send the values that nobody had to ask for", nullptr}};
+                     true, &exchange_minimum, &takes_nothing},
+    ExchangeStrategy{"block", "like minimum, with blocks of voxels around each", true, nullptr, nullptr},
+    ExchangeStrategy{"bounding", "owners send the faces' bounding volumes", true, nullptr, nullptr},
+    ExchangeStrategy{"push", "owners send the values that nobody had to ask for", true, nullptr, nullptr}};
 
 }  // namespace
 

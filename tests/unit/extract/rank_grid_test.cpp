@@ -27,6 +27,27 @@ TEST(RankGrid, EveryTraceHasOneOwnerWhateverTheCounts) {
   }
 }
 
+TEST(RankGrid, InterleavedPillarsCoverTheSurveyOnce) {
+  for (const int ranks : {1, 2, 3, 4, 7, 8}) {
+    for (const std::array<int, 2> pillars : {std::array{2, 2}, std::array{1, 3}, std::array{5, 4}}) {
+      const survey::Index dims{11, 13, 3};
+      const RankGrid grid(dims, ranks, pillars);
+      std::int64_t voxels = 0;
+      for (int rank = 0; rank < ranks; ++rank) {
+        for (const survey::Box& box : grid.boxes(rank)) {
+          EXPECT_FALSE(box.empty());
+          voxels += box.count();
+          for (std::int64_t i = box.lo[0]; i < box.hi[0]; ++i) {
+            for (std::int64_t j = box.lo[1]; j < box.hi[1]; ++j) EXPECT_EQ(grid.owner({i, j, 1}), rank);
+          }
+        }
+      }
+      EXPECT_EQ(voxels, dims[0] * dims[1] * dims[2]);
+    }
+  }
+  EXPECT_EQ(RankGrid({100, 100, 10}, 6).distance(0, 5), 3);
+}
+
 TEST(RankGrid, PartsAreAsSquareAsTheSurveyAllows) {
   EXPECT_EQ(RankGrid({100, 100, 10}, 4).parts(), (std::array<int, 2>{2, 2}));
   EXPECT_EQ(RankGrid({1000, 10, 10}, 4).parts(), (std::array<int, 2>{4, 1}));

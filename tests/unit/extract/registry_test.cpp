@@ -14,7 +14,7 @@ TEST(Registry, FindsWhatIsBuilt) {
 }
 
 TEST(Registry, RefusesTheRestAsWrongUsageAndListsTheChoice) {
-  for (const char* name : {"block=8", "push", "sideways", "", "reduce=3"}) {
+  for (const char* name : {"block=8", "push", "sideways", ""}) {
     try {
       find_row(exchange_rows(), "exchange", name);
       ADD_FAILURE() << name;
@@ -29,6 +29,22 @@ TEST(Registry, RefusesTheRestAsWrongUsageAndListsTheChoice) {
     EXPECT_NE(error.message().find("not built yet"), std::string::npos);
     EXPECT_NE(error.hint().find("reduce"), std::string::npos);
   }
+}
+
+TEST(Registry, RefusesParametersThatAStrategyDoesNotTake) {
+  for (const char* exchange : {"reduce=3", "minimum=2"}) {
+    Options options;
+    options.exchange = exchange;
+    EXPECT_THROW(validate(options), Error) << exchange;
+  }
+  Options options;
+  options.balance = "none=1";
+  EXPECT_THROW(validate(options), Error);
+  options.balance = "none";
+  options.voxelizer = "exact=1";
+  EXPECT_THROW(validate(options), Error);
+  options.voxelizer = "exact";
+  EXPECT_NO_THROW(validate(options));
 }
 
 }  // namespace
