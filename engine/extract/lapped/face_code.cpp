@@ -20,13 +20,19 @@ constexpr std::uint32_t kZeroEnds = 1U << 2;
 constexpr std::uint32_t kTunedAcross = 1U << 3;
 constexpr std::uint32_t kTunedDown = 1U << 4;
 constexpr std::uint32_t kHasNulls = 1U << 5;
+constexpr std::uint32_t kHasOffset = 1U << 6;
 
 // A face whose picture needs more coefficients than this per voxel (a small or narrow one) takes fewer bytes
 // as a line: measured on faces of a faulted survey.
 constexpr double kMostCoefficients = 1.35;
 // The step is kept in 16 bits: a float32 without its sign and its lower 15 bits.
 constexpr int kStepShift = 15;
-constexpr double kMostOffset = 1 << 30;
+// A mean closer to 0 than this many standard deviations is left in the values.
+constexpr double kLeastOffset = 0.5;
+// Many coefficients of smooth values round to 0, with smaller errors than the step promises: it is then made
+// coarser, so often at most, until the ratio is met within so much.
+constexpr int kMostTrials = 4;
+constexpr double kCloseEnough = 0.97;
 
 // 10^(-db / 20), the same on every machine: db in hundredths, by its binary digits.
 double attenuation(double db) {
@@ -105,8 +111,8 @@ std::uint16_t step_bits(double step) {
                                     kStepShift);
 }
 
-bool is_step(float step) {
-  return std::isnormal(step) && step > 0;
+bool is_step(double step) {
+  return std::isnormal(static_cast<float>(step)) && step > 0;
 }
 
 // Alternating lengths of runs of values and of nulls, the last one left out.
@@ -153,20 +159,39 @@ struct FaceEncoder::State : Parts {
   std::vector<float> scaled;
   BandEncoder encoder;
 
-  bool quantize(float scale);
-  bool add_line(std::span<const float> values, Ends ends);
-  bool add_raster(const Columns& columns);
+  void scale(std::span<const float> values, double step, double offset);
+  void transform_line(std::span<const float> values, Ends ends);
+  void transform_raster(const Columns& columns);
+  bool quantize(float coarser);
+  double mean_square_error(float coarser) const;
   bool encode(const Columns& columns, std::span<const float> values, const Moments& moments,
               std::uint32_t flags, std::size_t start, std::vector<std::byte>& out);
-  void scale(std::span<const float> values, double step, double offset);
 };
+
+namespace {
+
+bool worth_a_picture(const Columns& columns, Raster& raster) {
+  if (!raster.lay_out(columns)) return false;
+  std::size_t coefficients = raster.tiles().size() * kSquare;
+  for (std::size_t n = 0; n < kDetails; ++n) coefficients += raster.details(n);
+  return static_cast<double>(coefficients) <= kMostCoefficients * static_cast<double>(columns.voxels);
+}
+
+// A mean stands for voxels / means of the values: its coefficients are taken that much finer, by the root, so
+// that all errors are alike.
+float mean_weight(const Columns& columns, const Raster& raster) {
+  return static_cast<float>(
+      std::sqrt(static_cast<double>(columns.voxels) / static_cast<double>(raster.means())));
+}
+
+}  // namespace
 
 // Nulls take the line between the values around them.
 void FaceEncoder::State::scale(std::span<const float> values, double step, double offset) {
   scaled.resize(values.size());
-  const double inverse_step = 1 / step;
+  const double finer = 1 / step;
   for (std::size_t n = 0; n < values.size(); ++n) {
-    scaled[n] = static_cast<float>(values[n] * inverse_step - offset);
+    scaled[n] = static_cast<float>((values[n] - offset) * finer);
   }
   std::size_t last = values.size();
   for (std::size_t n = 0; n < values.size(); ++n) {
@@ -185,80 +210,112 @@ void FaceEncoder::State::scale(std::span<const float> values, double step, doubl
     std::fill(scaled.begin() + static_cast<std::ptrdiff_t>(last), scaled.end(), scaled[last]);
 }
 
-// The coefficients to the nearest integers of scale times them. False where one is too large.
-bool FaceEncoder::State::quantize(float scale) {
-  float largest = 0;
-  for (const float value : coefficients) largest = std::max(largest, std::abs(value));
-  if (!(largest * scale < static_cast<float>(kMostMagnitude))) return false;
-  quantized.resize(coefficients.size());
-  for (std::size_t n = 0; n < coefficients.size(); ++n) {
-    const float value = coefficients[n] * scale;
-    quantized[n] = static_cast<std::int32_t>(value + (value < 0 ? -0.5F : 0.5F));
-  }
-  return true;
-}
-
-bool FaceEncoder::State::add_line(std::span<const float> values, Ends ends) {
+// Appends the coefficients.
+void FaceEncoder::State::transform_line(std::span<const float> values, Ends ends) {
   const std::size_t lead = ends == Ends::kZero ? kReach : 0;
   line.assign(line_size(values.size(), ends), ends == Ends::kZero ? 0 : values.back());
   std::copy(values.begin(), values.end(), line.begin() + static_cast<std::ptrdiff_t>(lead));
-  coefficients.resize(line.size());
-  forward(line, coding.across, coefficients);
-  if (!quantize(1)) return false;
-  encoder.add_line(quantized);
-  return true;
+  const std::size_t first = coefficients.size();
+  coefficients.resize(first + line.size());
+  forward(line, coding.across, std::span(coefficients).subspan(first));
 }
 
-// A mean stands for voxels / means of the values, so its step is finer by the root of that: errors are then
-// alike.
-float mean_scale(const Columns& columns, const Raster& raster) {
-  return static_cast<float>(
-      std::sqrt(static_cast<double>(columns.voxels) / static_cast<double>(raster.means())));
-}
-
-bool FaceEncoder::State::add_raster(const Columns& columns) {
+void FaceEncoder::State::transform_raster(const Columns& columns) {
   raster.spread(columns, scaled, picture, details);
   work.resize(picture.size());
   coefficients.resize(picture.size());
   forward(raster.tiles(), picture, coding.across, coding.down, work, coefficients);
-  if (!quantize(mean_scale(columns, raster))) return false;
-  encoder.add_tiles(raster.tiles(), quantized);
-  return std::all_of(details.begin(), details.end(), [&](const std::vector<float>& detail) {
-    return detail.empty() || add_line(detail, Ends::kMirrored);
-  });
+  const float weight = mean_weight(columns, raster);
+  for (float& coefficient : coefficients) coefficient *= weight;
+  for (const std::vector<float>& detail : details) {
+    if (!detail.empty()) transform_line(detail, Ends::kMirrored);
+  }
 }
 
-namespace {
-
-bool worth_a_picture(const Columns& columns, Raster& raster) {
-  if (!raster.lay_out(columns)) return false;
-  std::size_t coefficients = raster.tiles().size() * kSquare;
-  for (std::size_t n = 0; n < kDetails; ++n) coefficients += raster.details(n);
-  return static_cast<double>(coefficients) <= kMostCoefficients * static_cast<double>(columns.voxels);
+// Of the coefficients rounded to multiples of `coarser`, which are in units of the step. Eight sums side by
+// side, the same on every processor.
+double FaceEncoder::State::mean_square_error(float coarser) const {
+  std::array<float, kBands> sums{};
+  const float finer = 1 / coarser;
+  for (std::size_t n = 0; n < coefficients.size(); n += kBands) {
+    for (std::size_t k = 0; k < kBands; ++k) {
+      const float value = std::abs(coefficients[n + k]) * finer;
+      const float error = value - static_cast<float>(static_cast<std::int32_t>(value + 0.5F));
+      sums[k] += error * error;
+    }
+  }
+  double sum = 0;
+  for (const float part : sums) sum += part;
+  return sum * coarser * coarser / static_cast<double>(coefficients.size());
 }
 
-}  // namespace
+// False where one is too large.
+bool FaceEncoder::State::quantize(float coarser) {
+  const float finer = 1 / coarser;
+  quantized.resize(coefficients.size());
+  std::int32_t largest = 0;
+  for (std::size_t n = 0; n < coefficients.size(); ++n) {
+    const float value = coefficients[n] * finer;
+    quantized[n] = static_cast<std::int32_t>(value + (value < 0 ? -0.5F : 0.5F));
+    largest = std::max(largest, quantized[n] < 0 ? -quantized[n] : quantized[n]);
+  }
+  return largest <= static_cast<std::int32_t>(kMostMagnitude);
+}
 
 // False where the values cannot be coded, or not in fewer bytes than they have.
 bool FaceEncoder::State::encode(const Columns& columns, std::span<const float> values, const Moments& moments,
                                 std::uint32_t flags, std::size_t start, std::vector<std::byte>& out) {
-  const std::uint16_t bits = step_bits(factor * std::sqrt(moments.variance()));
-  if (!is_step(step_from(bits))) return false;
-  const double step = step_from(bits);
-  const double offset = std::floor(moments.mean() / step + 0.5);
-  if (!(std::abs(offset) <= kMostOffset)) return false;
+  const double deviation = std::sqrt(moments.variance());
+  double step = step_from(step_bits(factor * deviation));
+  if (!is_step(step)) return false;
+  const bool with_offset = std::abs(moments.mean()) > kLeastOffset * deviation;
+  const auto offset = static_cast<float>(with_offset ? moments.mean() : 0);
   scale(values, step, offset);
+  coefficients.clear();
   const bool as_picture = coding.order == Order::kRaster && worth_a_picture(columns, raster);
+  if (as_picture) {
+    transform_raster(columns);
+  } else {
+    transform_line(scaled, coding.ends);
+  }
+  // A value is at most sqrt(n) deviations off the mean, but the mean itself may dwarf them all.
+  const auto fits = [](float value) { return std::abs(value) < static_cast<float>(kMostMagnitude); };
+  if (!std::all_of(coefficients.begin(), coefficients.end(), fits)) return false;
+
+  constexpr double kPromised = 1.0 / 12;
+  float coarser = 1;
+  for (int trial = 0; trial < kMostTrials; ++trial) {
+    const double error = mean_square_error(coarser);
+    if (error >= kCloseEnough * kPromised || error == 0) break;
+    const double wanted = step * coarser * std::sqrt(kPromised / error);
+    if (!is_step(step_from(step_bits(wanted)))) break;
+    coarser = static_cast<float>(step_from(step_bits(wanted)) / step);
+  }
+  const std::uint16_t bits = step_bits(step * coarser);
+  if (!quantize(static_cast<float>(step_from(bits) / step))) return false;
+
   flags |= static_cast<std::uint32_t>(as_picture ? Kind::kRaster : Kind::kLine);
+  if (with_offset) flags |= kHasOffset;
   if (coding.across == Angles::kTuned) flags |= kTunedAcross;
   if (as_picture && coding.down == Angles::kTuned) flags |= kTunedDown;
   if (!as_picture && coding.ends == Ends::kZero) flags |= kZeroEnds;
   out[start] = static_cast<std::byte>(flags);
   append(bits, out);
-  const auto whole = static_cast<std::int32_t>(offset);
-  append_number(static_cast<std::uint32_t>(whole) << 1 ^ static_cast<std::uint32_t>(whole >> 31), out);
+  if (with_offset) append(offset, out);
   encoder.clear();
-  if (!(as_picture ? add_raster(columns) : add_line(scaled, coding.ends))) return false;
+  std::span<const std::int32_t> rest(quantized);
+  if (as_picture) {
+    encoder.add_tiles(raster.tiles(), rest.first(picture.size()));
+    rest = rest.subspan(picture.size());
+    for (const std::vector<float>& detail : details) {
+      if (detail.empty()) continue;
+      const std::size_t size = line_size(detail.size(), Ends::kMirrored);
+      encoder.add_line(rest.first(size));
+      rest = rest.subspan(size);
+    }
+  } else {
+    encoder.add_line(rest);
+  }
   encoder.finish(out);
   return out.size() - start < values.size() * sizeof(float);
 }
@@ -330,10 +387,10 @@ void FaceDecoder::State::read_raster(BandDecoder& decoder, const Columns& column
   if (!raster.lay_out(columns) || raster.means() == 0) corrupt("is of another face");
   quantized.resize(raster.tiles().size() * kSquare);
   decoder.read_tiles(raster.tiles(), quantized);
-  const float scale = mean_scale(columns, raster);
+  const float weight = mean_weight(columns, raster);
   coefficients.resize(quantized.size());
   for (std::size_t n = 0; n < quantized.size(); ++n)
-    coefficients[n] = static_cast<float>(quantized[n]) / scale;
+    coefficients[n] = static_cast<float>(quantized[n]) / weight;
   work.resize(quantized.size());
   picture.resize(quantized.size());
   inverse(raster.tiles(), coefficients, across, down, work, picture);
@@ -373,9 +430,8 @@ void FaceDecoder::decode(std::span<const std::byte> code, const Columns& columns
     case Kind::kLine:
     case Kind::kRaster: {
       const double step = step_from(bytes.value<std::uint16_t>());
-      if (!is_step(static_cast<float>(step))) corrupt("has no step");
-      const std::uint32_t number = bytes.number();
-      const double offset = static_cast<std::int32_t>(number >> 1 ^ (0 - (number & 1)));
+      if (!is_step(step)) corrupt("has no step");
+      const double offset = (flags & kHasOffset) != 0 ? bytes.value<float>() : 0;
       BandDecoder decoder(bytes.rest());
       if (kind == Kind::kRaster) {
         state_->read_raster(decoder, columns, across, down, values);
@@ -383,7 +439,7 @@ void FaceDecoder::decode(std::span<const std::byte> code, const Columns& columns
         state_->read_line(decoder, across, (flags & kZeroEnds) != 0 ? Ends::kZero : Ends::kMirrored, values);
       }
       decoder.end();
-      for (float& value : values) value = static_cast<float>((value + offset) * step);
+      for (float& value : values) value = static_cast<float>(value * step + offset);
       break;
     }
   }
