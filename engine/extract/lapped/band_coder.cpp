@@ -1,5 +1,9 @@
 #include "engine/extract/lapped/band_coder.h"
 
+#include <bit>
+#include <cstring>
+#include <iterator>
+
 #include "engine/extract/lapped/expected_magnitude.h"
 #include "storage/base/error.h"
 
@@ -9,6 +13,7 @@ namespace {
 constexpr std::uint32_t kLeastState = 1U << 15;  // states lie in [2^15, 2^31)
 constexpr std::uint32_t kTokenBits = 6;
 static_assert(kTokens <= 1U << kTokenBits);
+static_assert(std::endian::native == std::endian::little);
 
 // What encoding one token needs, without a division: x / frequency is (x * reciprocal) >> shift for every
 // state x.
@@ -59,6 +64,20 @@ const Steps& steps() {
   return table;
 }
 
+using SmallTokens = std::array<Token, 256>;
+const SmallTokens& small_tokens() {
+  static constexpr SmallTokens kTable = [] {
+    SmallTokens table{};
+    for (std::uint32_t n = 0; n < table.size(); ++n) table[n] = token_of(n);
+    return table;
+  }();
+  return kTable;
+}
+
+std::uint32_t size_of(std::int32_t value) {
+  return static_cast<std::uint32_t>(value < 0 ? -value : value);
+}
+
 void append_word(std::uint32_t word, std::vector<std::byte>& out) {
   out.push_back(static_cast<std::byte>(word & 0xff));
   out.push_back(static_cast<std::byte>(word >> 8 & 0xff));
@@ -71,51 +90,52 @@ void append_word(std::uint32_t word, std::vector<std::byte>& out) {
 
 }  // namespace
 
-// Writes down what the walk tells.
-struct BandEncoder::Writer {
-  BandEncoder& coder;
-  std::span<const std::int32_t> coefficients;
-  std::uint16_t* symbol;
-
-  std::uint32_t operator()(std::size_t n, std::uint32_t of_class) {
-    const std::int32_t value = coefficients[n];
-    const auto magnitude = static_cast<std::uint32_t>(value < 0 ? -value : value);
-    const Token token = token_of(magnitude);
-    *symbol++ = static_cast<std::uint16_t>((of_class << kTokenBits) + token.token);
-    // The extra bits, and above them the sign of what is not 0.
-    const std::uint32_t extra = magnitude & ((1U << token.extra_bits) - 1);
-    const std::uint32_t sign = value < 0 ? 1 : 0;
-    coder.pending_ |= std::uint64_t{extra | sign << token.extra_bits} << coder.pending_bits_;
-    coder.pending_bits_ += token.extra_bits + (magnitude != 0 ? 1 : 0);
-    while (coder.pending_bits_ >= 32) {
-      for (int byte = 0; byte < 4; ++byte) {
-        coder.bits_.push_back(static_cast<std::byte>(coder.pending_ & 0xff));
-        coder.pending_ >>= 8;
-      }
-      coder.pending_bits_ -= 32;
-    }
-    return magnitude;
-  }
-};
-
 void BandEncoder::clear() {
   symbols_.clear();
-  bits_.clear();
+  used_ = 0;
   pending_ = 0;
   pending_bits_ = 0;
 }
 
 void BandEncoder::add_line(std::span<const std::int32_t> coefficients) {
-  const std::size_t first = symbols_.size();
-  symbols_.resize(first + coefficients.size());
-  walk_line(coefficients.size() / kBands, magnitudes_, Writer{*this, coefficients, symbols_.data() + first});
+  expected_magnitudes(coefficients, expected_);
+  add(coefficients);
 }
 
 void BandEncoder::add_tiles(std::span<const Tile> tiles, std::span<const std::int32_t> coefficients) {
-  require(coefficients.size() == tiles.size() * kSquare, "64 coefficients of every tile");
+  expected_magnitudes(tiles, coefficients, magnitudes_, expected_);
+  add(coefficients);
+}
+
+void BandEncoder::add(std::span<const std::int32_t> coefficients) {
   const std::size_t first = symbols_.size();
   symbols_.resize(first + coefficients.size());
-  walk_tiles(tiles, magnitudes_, Writer{*this, coefficients, symbols_.data() + first});
+  // At most 23 bits each, and the last store reaches 8 bytes ahead.
+  if (bits_.size() < used_ + 3 * coefficients.size() + 16) bits_.resize(used_ + 6 * coefficients.size() + 16);
+  const std::uint8_t* const of_class = classes().data();
+  const SmallTokens& small = small_tokens();
+  std::uint16_t* symbol = symbols_.data() + first;
+  std::byte* out = bits_.data() + used_;
+  std::uint64_t pending = pending_;
+  std::uint32_t pending_bits = pending_bits_;
+  for (std::size_t n = 0; n < coefficients.size(); ++n) {
+    const std::int32_t value = coefficients[n];
+    const std::uint32_t sign = value < 0 ? 1 : 0;
+    const std::uint32_t magnitude = static_cast<std::uint32_t>(value < 0 ? -value : value);
+    const Token token = magnitude < small.size() ? small[magnitude] : token_of(magnitude);
+    symbol[n] = static_cast<std::uint16_t>(std::uint32_t{of_class[expected_[n]]} << kTokenBits | token.token);
+    // The extra bits, and above them the sign of what is not 0.
+    const std::uint32_t extra = magnitude & ((1U << token.extra_bits) - 1);
+    pending |= std::uint64_t{extra | sign << token.extra_bits} << pending_bits;
+    pending_bits += token.extra_bits + (magnitude != 0 ? 1 : 0);
+    std::memcpy(out, &pending, sizeof pending);
+    out += pending_bits / 8;
+    pending >>= pending_bits / 8 * 8;
+    pending_bits %= 8;
+  }
+  used_ = static_cast<std::size_t>(out - bits_.data());
+  pending_ = pending;
+  pending_bits_ = pending_bits;
 }
 
 void BandEncoder::finish(std::vector<std::byte>& out) {
@@ -140,11 +160,9 @@ void BandEncoder::finish(std::vector<std::byte>& out) {
     append_word(x >> 16, out);
   }
   for (; word != end; ++word) append_word(*word, out);
-  for (; pending_bits_ > 0; pending_bits_ -= std::min(pending_bits_, 8U)) {
-    bits_.push_back(static_cast<std::byte>(pending_ & 0xff));
-    pending_ >>= 8;
-  }
-  out.insert(out.end(), bits_.rbegin(), bits_.rend());
+  if (pending_bits_ > 0) out.push_back(static_cast<std::byte>(pending_));
+  const auto written = bits_.begin() + static_cast<std::ptrdiff_t>(used_);
+  std::reverse_copy(bits_.begin(), written, std::back_inserter(out));
 }
 
 BandDecoder::BandDecoder(std::span<const std::byte> code) : code_(code), back_(code.size()) {
@@ -169,8 +187,8 @@ std::uint32_t BandDecoder::plain_bits(std::uint32_t count) {
   return bits;
 }
 
-std::int32_t BandDecoder::next(std::uint32_t of_class) {
-  const Shares& starts = shares_of(of_class);
+std::int32_t BandDecoder::next(std::uint32_t expected) {
+  const Shares& starts = shares_of(class_of(expected));
   std::uint32_t& x = state_[turn_];
   turn_ ^= 1;
   const std::uint32_t slot = x & ((1U << kFrequencyBits) - 1);
@@ -189,22 +207,20 @@ std::int32_t BandDecoder::next(std::uint32_t of_class) {
   return plain_bits(1) != 0 ? -value : value;
 }
 
-struct BandDecoder::Reader {
-  BandDecoder& coder;
-  std::span<std::int32_t> coefficients;
-  std::uint32_t operator()(std::size_t n, std::uint32_t of_class) {
-    const std::int32_t value = coefficients[n] = coder.next(of_class);
-    return static_cast<std::uint32_t>(value < 0 ? -value : value);
-  }
-};
-
 void BandDecoder::read_line(std::span<std::int32_t> coefficients) {
-  walk_line(coefficients.size() / kBands, magnitudes_, Reader{*this, coefficients});
+  walk<1>(
+      coefficients.size() / kBands,
+      [](std::size_t b) { return b == 0 ? Tile::kNone : static_cast<std::uint32_t>(b - 1); },
+      [](std::size_t) { return Tile::kNone; }, magnitudes_,
+      [&](std::size_t n, std::uint32_t expected) { return size_of(coefficients[n] = next(expected)); });
 }
 
 void BandDecoder::read_tiles(std::span<const Tile> tiles, std::span<std::int32_t> coefficients) {
   require(coefficients.size() == tiles.size() * kSquare, "64 coefficients of every tile");
-  walk_tiles(tiles, magnitudes_, Reader{*this, coefficients});
+  walk<kBands>(
+      tiles.size(), [&](std::size_t n) { return tiles[n].left; },
+      [&](std::size_t n) { return tiles[n].above; }, magnitudes_,
+      [&](std::size_t n, std::uint32_t expected) { return size_of(coefficients[n] = next(expected)); });
 }
 
 void BandDecoder::end() const {

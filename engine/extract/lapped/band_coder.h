@@ -25,12 +25,15 @@ class BandEncoder {
   void finish(std::vector<std::byte>& out);
 
  private:
-  struct Writer;
+  void add(std::span<const std::int32_t> coefficients);
+
   std::vector<std::uint16_t> symbols_;  // class * 64 + token
-  std::vector<std::byte> bits_;
-  std::uint64_t pending_ = 0;
+  std::vector<std::byte> bits_;         // the first used_ bytes, and room
+  std::size_t used_ = 0;
+  std::uint64_t pending_ = 0;  // fewer than 8 bits between calls
   std::uint32_t pending_bits_ = 0;
-  std::vector<std::uint8_t> magnitudes_;
+  std::vector<std::uint16_t> expected_;
+  std::vector<std::int32_t> magnitudes_;
   std::vector<std::uint16_t> words_;
 };
 
@@ -45,8 +48,7 @@ class BandDecoder {
   void end() const;
 
  private:
-  struct Reader;
-  std::int32_t next(std::uint32_t of_class);
+  std::int32_t next(std::uint32_t expected);
   std::uint32_t plain_bits(std::uint32_t count);
 
   std::span<const std::byte> code_;

@@ -8,8 +8,6 @@ constexpr double kBoundRatio = 1.35;
 constexpr double kSpread = 2.1;
 constexpr double kLeastMean = 0.15;
 
-using Classes = std::array<std::uint8_t, kMostExpected + 1>;
-
 constexpr Classes make_classes() {
   Classes classes{};
   double bound = kFirstBound;
@@ -83,8 +81,8 @@ constexpr std::array<Shares, kClasses> kShares = make_all_shares();
 
 }  // namespace
 
-std::uint32_t class_of(std::uint32_t expected) {
-  return kClassOf[expected < kMostExpected ? expected : kMostExpected];
+const Classes& classes() {
+  return kClassOf;
 }
 
 const Shares& shares_of(std::uint32_t of_class) {

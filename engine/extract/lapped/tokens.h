@@ -40,7 +40,11 @@ constexpr std::uint32_t extra_bits_of(std::uint32_t token) {
 
 // Expected magnitudes are counted in sixteenths; those above kMostExpected are of the last class.
 inline constexpr std::uint32_t kMostExpected = 4095;
-std::uint32_t class_of(std::uint32_t expected);
+using Classes = std::array<std::uint8_t, kMostExpected + 1>;
+const Classes& classes();
+inline std::uint32_t class_of(std::uint32_t expected) {
+  return classes()[expected < kMostExpected ? expected : kMostExpected];
+}
 
 // starts[token] .. starts[token + 1] are a token's share of 2^14, never empty.
 using Shares = std::array<std::uint16_t, kTokens + 1>;
