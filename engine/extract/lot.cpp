@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "engine/extract/choice.h"
@@ -10,6 +11,9 @@
 
 namespace footwall::extract {
 namespace {
+
+constexpr std::string_view kLot = "lot";
+constexpr std::string_view kVoxels = "voxels";
 
 // The angles along a row and down the columns of a face.
 lapped::Coding along_samples(const LotCoding& lot, const FaceRows& rows) {
@@ -149,6 +153,31 @@ void columns_of(const FaceRows& rows, lapped::Columns& columns) {
       columns.add(row.u0 + static_cast<std::int64_t>(c), row.v, std::max(0, row.hi[c] - row.lo[c] + 1));
     }
   }
+}
+
+bool holds_voxels(std::string_view computation) {
+  return computation == kLot || computation == kVoxels;
+}
+
+VoxelReader::VoxelReader(std::string_view computation) : coded_(computation == kLot) {
+  if (holds_voxels(computation)) return;
+  throw Error(ErrorCode::kUnsupported,
+              "'" + std::string(computation) + "' holds no voxels that can be read back",
+              "was the run made by a newer footwall?");
+}
+
+void VoxelReader::read(std::span<const std::byte> bytes, const FaceRows& rows, std::vector<float>& values) {
+  values.resize(static_cast<std::size_t>(rows.voxels()));
+  if (coded_) {
+    columns_of(rows, columns_);
+    decoder_.decode(bytes, columns_, values);
+    return;
+  }
+  if (bytes.size() != values.size() * sizeof(float)) {
+    throw Error(ErrorCode::kCorrupt, "the voxels of a face are not as many as it has",
+                "compute the run again: extract --compute voxels");
+  }
+  if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
 }
 
 std::unique_ptr<WholeFace> make_lot(const Options& options) {

@@ -1,6 +1,7 @@
 // The whole-face computations `lot` and `voxels`: a face's voxel values as few bytes, or as they are.
 #pragma once
 #include <memory>
+#include <string_view>
 
 #include "engine/extract/lapped/columns.h"
 #include "engine/extract/lapped/face_code.h"
@@ -17,6 +18,22 @@ struct LotCoding {
   bool tuned = false;
 };
 LotCoding lot_coding(const Options& options);
+
+// Whether the results of a computation are the values of a face's voxels, in some form: "lot", "voxels".
+bool holds_voxels(std::string_view computation);
+
+// The values behind a face's bytes, in the canonical order of `rows`, as the voxelizer of the run gives them;
+// NaN for nulls. Used for face after face. Throws kCorrupt; kUnsupported for another computation.
+class VoxelReader {
+ public:
+  explicit VoxelReader(std::string_view computation);
+  void read(std::span<const std::byte> bytes, const FaceRows& rows, std::vector<float>& values);
+
+ private:
+  bool coded_;
+  lapped::FaceDecoder decoder_;
+  lapped::Columns columns_;
+};
 
 // The shape of a face for the coder. Rows that do not stand in one lattice by ascending v and u, as a
 // voxelizer may give them, become one long column, which is coded as a line.

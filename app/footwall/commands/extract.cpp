@@ -1,6 +1,7 @@
 // footwall extract: EXTRACT-ALL on the engine, the result attached to the project; or a forecast of it; or
 // the job as a folder.
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -29,6 +30,10 @@ void check(Options& options) {
   if (options.how.velocity && !(*options.how.velocity > 0 && std::isfinite(*options.how.velocity))) {
     throw Error(ErrorCode::kUsage, fmt::format("--velocity {} is no velocity", *options.how.velocity),
                 "give a number above 0, in m/s");
+  }
+  const std::vector<std::string>& compute = options.how.engine.compute;
+  if (options.how.engine.snr != 0 && std::find(compute.begin(), compute.end(), "lot") == compute.end()) {
+    throw Error(ErrorCode::kUsage, "--snr is about --compute lot", "add lot to --compute");
   }
   if (options.dry_run && !options.job_folder.empty()) {
     throw Error(ErrorCode::kUsage, "--dry-run changes nothing, so it cannot go with --write-job",
@@ -178,7 +183,15 @@ void add_extract(console::Program& program) {
   command->add_option("--voxelizer", how.engine.voxelizer,
                       "Which voxels a face cuts: " + names(extract::voxelizer_rows()) + " (default exact)");
   command->add_option("--compute", options->compute,
-                      "Statistics, comma separated: " + names(extract::statistic_rows()) + " (default: all)");
+                      "Statistics, comma separated: " + names(extract::statistic_rows()) +
+                          " (default: all but voxels and lot)");
+  command->add_option(
+      "--snr", how.engine.snr,
+      "dB, for --compute lot: keeps the voxels, within this signal-to-noise ratio (1 to 100)");
+  command->add_option(
+      "--lot-order", how.engine.lot_order,
+      "For --compute lot: 2d, the face as a picture, or 1d, as a line; =tuned: for band-limited "
+      "traces; 1d=zero: with zeros at the ends (default 2d)");
   command->add_option("--velocity", how.velocity,
                       "m/s: gives area and dip in metres and degrees in a time survey");
   command->add_flag("--dry-run", options->dry_run,

@@ -27,6 +27,14 @@ Part some_part(int faces) {
     part.statistics.push_back(statistics);
     part.geometry.push_back(extract::face_geometry(small_geometry(), part.faces.back().triangle));
   }
+  if (faces == 1) return part;
+  for (const char* name : {"voxels", "lot"}) {
+    extract::FaceBlobs& blobs = part.blobs.emplace_back(extract::FaceBlobs{name, {0}, {}});
+    for (int n = 0; n < faces; ++n) {
+      blobs.bytes.resize(blobs.bytes.size() + static_cast<std::size_t>(n % 5), static_cast<std::byte>(n));
+      blobs.offsets.push_back(blobs.bytes.size());
+    }
+  }
   return part;
 }
 
@@ -41,6 +49,12 @@ TEST(PartFile, ReadsBackAsItWasWritten) {
     EXPECT_EQ(read.name, written.name);
     EXPECT_EQ(read.hash, written.hash);
     EXPECT_EQ(read.faces, written.faces);
+    ASSERT_EQ(read.blobs.size(), written.blobs.size());
+    for (std::size_t n = 0; n < read.blobs.size(); ++n) {
+      EXPECT_EQ(read.blobs[n].computation, written.blobs[n].computation);
+      EXPECT_EQ(read.blobs[n].offsets, written.blobs[n].offsets);
+      EXPECT_EQ(read.blobs[n].bytes, written.blobs[n].bytes);
+    }
     ASSERT_EQ(read.statistics.size(), written.statistics.size());
     for (std::size_t n = 0; n < read.statistics.size(); ++n) {
       EXPECT_EQ(read.statistics[n].count, written.statistics[n].count);
