@@ -36,9 +36,9 @@ TEST(VoxelsCsv, OneRowAVoxelWithItsPlaces) {
             "\"A, \"\"B\"\"\",3-7.12,0,0,0,100,7,800,0.1\n"
             "\"A, \"\"B\"\"\",3-7.12,3,4,5,106,11,820,\n");
   Writer writer(path, geometry(), {0.001, true});
-  writer.add("F", "1.1", std::span(voxels).last(1), std::span(values).first(1));
+  writer.add("F", "1.1", std::span(voxels).first(1), std::span(values).first(1));
   writer.commit();
-  EXPECT_NE(read_whole_file(path, 1 << 20).find("F,1.1,3,4,5,106,11,-0.82,0.1\n"), std::string::npos);
+  EXPECT_NE(read_whole_file(path, 1 << 20).find("F,1.1,0,0,0,100,7,-0.8,0.1\n"), std::string::npos);
 }
 
 }  // namespace
