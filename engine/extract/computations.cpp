@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/extract/lot.h"
 #include "engine/extract/registry.h"
 
 namespace footwall::extract {
@@ -15,7 +16,11 @@ constexpr std::array kComputations{
     Computation{"min", "smallest amplitude", "amplitude", true, true, 0, nullptr},
     Computation{"max", "largest amplitude", "amplitude", true, true, 0, nullptr},
     Computation{"discontinuity", "0 where the traces around are alike, towards 1 where they are not", "1",
-                true, true, 1, nullptr}};
+                true, true, 1, nullptr},
+    Computation{"voxels", "the values of the voxels themselves, stored", "bytes", true, false, 0,
+                &make_voxels},
+    Computation{"lot", "the voxels' lapped orthogonal transform, stored with --snr", "bytes", true, false, 0,
+                &make_lot}};
 
 }  // namespace
 

@@ -51,6 +51,7 @@ struct Options {
   std::array<int, 2> pillars{1, 1};      // of each rank along inlines and crosslines, see RankGrid
   std::int64_t cache_bytes = 1LL << 30;  // limit of a rank's remote voxels
   double snr = 0;                        // dB, for `lot`; 0 = not given
+  std::string lot_order = "2d";          // of `lot`, see lot.h
   friend bool operator==(const Options&, const Options&) = default;
 };
 

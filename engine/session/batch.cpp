@@ -228,7 +228,7 @@ void run_batch(const comm::Communicator& world, const std::filesystem::path& job
       const extract::Input input{reader.info().dims, reader.info().statistics.max_abs, faces};
       const extract::Result result =
           survey.extract(input, job.options, context.part(share(before), share(before + faces.size())));
-      parts.write(group, result.faces);
+      parts.write(group, result.faces, result.blobs);
       totals.add(result.report);
       before += faces.size();
     }

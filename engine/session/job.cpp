@@ -72,6 +72,8 @@ Job header_from_json(const Json& json, const std::filesystem::path& folder,
   job.options.pillars = options.value("pillars", job.options.pillars);
   job.options.cache_bytes = options.value("cache", job.options.cache_bytes);
   options.at("compute").get_to(job.options.compute);
+  job.options.snr = options.value("snr", job.options.snr);
+  job.options.lot_order = options.value("lot_order", job.options.lot_order);
   if (!options.at("velocity").is_null()) job.velocity = options.at("velocity").get<double>();
   if (job.velocity && !(*job.velocity > 0)) throw bad("the velocity must be positive");
   job.output = beside(folder, json.at("output"));
@@ -120,7 +122,9 @@ void write_job(const Job& job, const std::filesystem::path& path) {
                     {"pillars", job.options.pillars},
                     {"cache", job.options.cache_bytes},
                     {"compute", job.options.compute},
-                    {"velocity", optional_number(job.velocity)}}},
+                    {"velocity", optional_number(job.velocity)},
+                    {"snr", job.options.snr},
+                    {"lot_order", job.options.lot_order}}},
                   {"output", job.output.string()},
                   {"run", job.run}};
   std::string text;
@@ -201,7 +205,9 @@ std::uint64_t part_hash(const Job& job, const JobFault& fault) {
                       {"geometry", survey::geometry_to_json(geometry)},
                       {"voxelizer", job.options.voxelizer},
                       {"compute", job.options.compute},
-                      {"velocity", optional_number(job.velocity)}};
+                      {"velocity", optional_number(job.velocity)},
+                      {"snr", job.options.snr},
+                      {"lot_order", job.options.lot_order}};
   Hasher hasher;
   for (const std::string& bytes : {settings.dump(), faces_to_bytes(fault.faces)}) {
     hasher.add(std::as_bytes(std::span(bytes)));

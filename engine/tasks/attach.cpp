@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "engine/extract/extract.h"
+#include "engine/extract/lot.h"
 #include "engine/session/part_file.h"
 #include "engine/tasks/statistics.h"
 #include "storage/base/error.h"
@@ -52,6 +53,30 @@ project::FaultRun fault_run(const session::Part& part, std::int64_t revision, co
   }
   run.statistics = columns_of(part);
   return run;
+}
+
+// What it takes to read the voxels of a run back: which voxels a face has, and in which volume.
+std::string voxel_parameters(const session::Job& job) {
+  return Json{{"voxelizer", job.options.voxelizer},
+              {"origin", job.volume_origin},
+              {"dims", job.geometry.dims()},
+              {"snr", job.options.snr},
+              {"order", job.options.lot_order}}
+      .dump();
+}
+
+// `lot` without a ratio has no bytes at all: nothing to keep.
+std::vector<project::FaceVoxels> face_voxels(const session::Part& part, const session::Job& job) {
+  std::vector<project::FaceVoxels> all;
+  for (const extract::FaceBlobs& blobs : part.blobs) {
+    const bool transform_alone = blobs.computation == "lot" && job.options.snr == 0;
+    if (transform_alone || !extract::holds_voxels(blobs.computation)) continue;
+    all.push_back({blobs.computation,
+                   voxel_parameters(job),
+                   {blobs.offsets.begin() + 1, blobs.offsets.end()},
+                   blobs.bytes});
+  }
+  return all;
 }
 
 fs::path job_file_in(const fs::path& folder) {
@@ -195,6 +220,7 @@ std::int64_t attach_parts(project::Project& project, const session::Job& job,
     const session::JobFault& fault = job.faults[n];
     const session::Part part = session::read_part(session::part_path(job.output, fault.id));
     runs.push_back(fault_run(part, fault.revision, job.volume_origin));
+    runs.back().voxels = face_voxels(part, job);
   }
   project.register_statistics(stored_statistics());
   project::RunRecord record;

@@ -24,15 +24,6 @@ struct LatticeHash {
   }
 };
 
-// "3-7.12": face 12 of the strip between pillars 3 and 7 (pillars::pair_id); "cell 8f2e....12" in a tied
-// network; "1.12" in the first piece of an imported surface.
-std::string face_id(std::int64_t panel, std::int32_t n) {
-  constexpr int kPillarBits = 31;
-  if (panel < 0) return fmt::format("cell {:x}.{}", static_cast<std::uint64_t>(panel), n);
-  if (panel >> kPillarBits == 0) return fmt::format("{}.{}", panel, n);
-  return fmt::format("{}-{}.{}", panel >> kPillarBits, panel & ((std::int64_t{1} << kPillarBits) - 1), n);
-}
-
 // The mesh as picked, or as the file of an imported surface has it.
 void fill_world(formats::MeshTable& table, const project::Project& project, const project::FaultRecord& fault,
                 const project::MeshRecord& mesh) {
@@ -135,6 +126,13 @@ void turn_z_into(const std::string& unit, FaceTables& faces) {
 }
 
 }  // namespace
+
+std::string face_id(std::int64_t panel, std::int32_t n) {
+  constexpr int kPillarBits = 31;
+  if (panel < 0) return fmt::format("cell {:x}.{}", static_cast<std::uint64_t>(panel), n);
+  if (panel >> kPillarBits == 0) return fmt::format("{}.{}", panel, n);
+  return fmt::format("{}-{}.{}", panel >> kPillarBits, panel & ((std::int64_t{1} << kPillarBits) - 1), n);
+}
 
 FaceTables face_tables(const project::Project& project, const std::string& fault,
                        std::optional<std::int64_t> run, Coordinates coordinates, const std::string& z_unit) {

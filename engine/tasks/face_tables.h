@@ -32,6 +32,10 @@ FaceTables face_tables(const project::Project& project, const std::string& fault
                        std::optional<std::int64_t> run, Coordinates coordinates,
                        const std::string& z_unit = {});
 
+// The name of a face: "3-7.12" is face 12 of the strip between pillars 3 and 7 (pillars::pair_id); "cell
+// 8f2e....12" in a tied network; "1.12" in the first piece of an imported surface.
+std::string face_id(std::int64_t panel, std::int32_t n);
+
 // Faces with at least `least_count` samples and a defined value, by rising (or falling) value; ties by order.
 struct RankedFace {
   std::size_t table = 0;

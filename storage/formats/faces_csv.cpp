@@ -4,20 +4,13 @@
 #include <algorithm>
 
 #include "storage/base/text.h"
+#include "storage/formats/detail/csv.h"
 #include "storage/formats/detail/output_file.h"
 
 namespace footwall::formats::faces_csv {
 namespace {
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char letter : text) {
-    if (letter == '"') out.push_back('"');
-    out.push_back(letter);
-  }
-  return out + '"';
-}
+using detail::csv_quoted;
 
 // The contract's columns first, present or not, then the others as they appear.
 std::vector<std::string> columns_of(std::span<const MeshTable> meshes) {
@@ -31,13 +24,13 @@ std::vector<std::string> columns_of(std::span<const MeshTable> meshes) {
 template <class Put>
 void print_rows(std::span<const MeshTable> meshes, const std::optional<Declared>& declared, const Put& put) {
   const bool up = declared && declared->z_positive_up;
-  const std::string told =
-      declared ? fmt::format(",{},{},{},{}", quoted(declared->horizontal_unit),
-                             quoted(declared->vertical_unit), up ? "up" : "down", quoted(declared->crs))
-               : "";
+  const std::string told = declared ? fmt::format(",{},{},{},{}", csv_quoted(declared->horizontal_unit),
+                                                  csv_quoted(declared->vertical_unit), up ? "up" : "down",
+                                                  csv_quoted(declared->crs))
+                                    : "";
   const std::vector<std::string> columns = columns_of(meshes);
   std::string line = "fault,face,x0,y0,z0,x1,y1,z1,x2,y2,z2";
-  for (const std::string& column : columns) line += ',' + quoted(column);
+  for (const std::string& column : columns) line += ',' + csv_quoted(column);
   if (declared) line += ",xy_unit,z_unit,z_positive,crs";
   put(line += '\n');
   for (const MeshTable& mesh : meshes) {
@@ -49,9 +42,9 @@ void print_rows(std::span<const MeshTable> meshes, const std::optional<Declared>
                        [&](const FaceStatistic& statistic) { return statistic.name == column; });
       values.push_back(found == mesh.statistics.end() ? nullptr : &*found);
     }
-    const std::string fault = quoted(mesh.fault);
+    const std::string fault = csv_quoted(mesh.fault);
     for (std::size_t face = 0; face < mesh.triangles.size(); ++face) {
-      line = fault + ',' + quoted(mesh.face_ids[face]);
+      line = fault + ',' + csv_quoted(mesh.face_ids[face]);
       for (const std::int32_t vertex : mesh.triangles[face]) {
         const survey::WorldPoint& p = mesh.vertices[static_cast<std::size_t>(vertex)];
         for (const double coordinate : {p.x, p.y, up ? 0.0 - p.z : p.z})

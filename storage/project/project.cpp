@@ -246,6 +246,9 @@ std::vector<std::int64_t> Project::run_faults(std::int64_t run) const {
 FaultRun Project::fault_statistics(std::int64_t run, std::int64_t fault) const {
   return RunTable(*state_->database).read(run, fault);
 }
+std::vector<FaceVoxels> Project::face_voxels(std::int64_t run, std::int64_t fault) const {
+  return RunTable(*state_->database).voxels(run, fault);
+}
 void Project::delete_run(std::int64_t run) {
   state_->write([&] { RunTable(*state_->database).remove(run); });
 }

@@ -141,6 +141,14 @@ struct RunRecord {
   std::string when;               // UTC, given by the project
 };
 
+// The voxel values of a fault's faces, as a computation of the run kept them.
+struct FaceVoxels {
+  std::string codec;  // what made the bytes, e.g. "lot", "voxels": a name of extract/computations.h
+  std::string parameters = "{}";    // JSON: what it takes to read them back
+  std::vector<std::uint64_t> ends;  // one per face: where its bytes end in `bytes`
+  Bytes bytes;
+};
+
 // The part of a run that belongs to one fault; every vector has one entry per face, in the same order.
 struct FaultRun {
   std::int64_t fault = 0;
@@ -150,6 +158,7 @@ struct FaultRun {
   std::vector<std::int32_t> numbers;                      // face id = (panels[f], numbers[f])
   std::vector<survey::LatticeTriangle> lattice;           // the positions that were voxelized
   std::map<std::string, std::vector<double>> statistics;  // NaN = undefined
+  std::vector<FaceVoxels> voxels;  // for add_run; read by Project::face_voxels alone, since they may be large
 };
 
 struct IntegrityReport {

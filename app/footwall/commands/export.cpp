@@ -13,23 +13,25 @@ struct Options {
   ExportChoice choice;
   ExportVolumes volumes;
   ExportFaces faces;
+  ExportFaceVoxels face_voxels;
   ExportSticks sticks;
   ExportPackage package;
 };
 
 console::Output run(const Options& options, const console::Console& console) {
   options.package.check();
-  if (!options.faces.asked() && !options.volumes.asked() && !options.sticks.asked() &&
-      !options.package.asked()) {
-    throw Error(
-        ErrorCode::kUsage, "nothing to export",
-        "name a file with --raw, --nrrd, --segy, --vti, --vtp, --tsurf, --csv or --sticks, or a folder with "
-        "--for petrel --out FOLDER");
+  if (!options.faces.asked() && !options.face_voxels.asked() && !options.volumes.asked() &&
+      !options.sticks.asked() && !options.package.asked()) {
+    throw Error(ErrorCode::kUsage, "nothing to export",
+                "name a file with --raw, --nrrd, --segy, --vti, --vtp, --tsurf, --csv, --face-voxels or "
+                "--sticks, or a folder with "
+                "--for petrel --out FOLDER");
   }
   const project::Project project = open_project(options.project, project::OpenMode::kRead);
   console::Output output{{{"files", console::Json::array()}, {"renamed", console::Json::array()}}, ""};
   if (options.volumes.asked()) options.volumes.run(project, options.choice, console, output);
   if (options.faces.asked()) options.faces.run(project, options.choice, output);
+  if (options.face_voxels.asked()) options.face_voxels.run(project, options.choice, console, output);
   if (options.sticks.asked()) options.sticks.run(project, options.choice, output);
   if (options.package.asked()) options.package.run(project, options.choice, output);
   return output;
@@ -67,6 +69,7 @@ void add_export(console::Program& program) {
   command->add_option("project", options->project, "The project, NAME.footwall")->required();
   options->volumes.add_to(*command);
   options->faces.add_to(*command);
+  options->face_voxels.add_to(*command);
   options->sticks.add_to(*command);
   options->package.add_to(*command);
   options->choice.add_to(*command);

@@ -42,6 +42,15 @@ struct ExportFaces {
   void run(const project::Project& project, const ExportChoice& choice, console::Output& output) const;
 };
 
+struct ExportFaceVoxels {
+  std::string file;
+
+  void add_to(CLI::App& command);
+  bool asked() const { return !file.empty(); }
+  void run(const project::Project& project, const ExportChoice& choice, const console::Console& console,
+           console::Output& output) const;
+};
+
 struct ExportSticks {
   std::string sticks, format = "charisma";
   bool interpolated = false, no_blanks = false;

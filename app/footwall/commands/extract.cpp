@@ -2,6 +2,7 @@
 // the job as a folder.
 #include <fmt/format.h>
 #include <array>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -62,6 +63,10 @@ void check(Options& options) {
   if (options.how.velocity && !(*options.how.velocity > 0 && std::isfinite(*options.how.velocity))) {
     throw Error(ErrorCode::kUsage, fmt::format("--velocity {} is no velocity", *options.how.velocity),
                 "give a number above 0, in m/s");
+  }
+  const std::vector<std::string>& compute = options.how.engine.compute;
+  if (options.how.engine.snr != 0 && std::find(compute.begin(), compute.end(), "lot") == compute.end()) {
+    throw Error(ErrorCode::kUsage, "--snr is about --compute lot", "add lot to --compute");
   }
   if (options.dry_run && !options.job_folder.empty()) {
     throw Error(ErrorCode::kUsage, "--dry-run changes nothing, so it cannot go with --write-job",
@@ -211,14 +216,20 @@ void add_extract(console::Program& program) {
   command->add_option("--voxelizer", how.engine.voxelizer,
                       "Which voxels a face cuts: " + names(extract::voxelizer_rows()) + " (default exact)");
   command->add_option("--compute", options->compute,
-                      "Statistics, comma separated: " + names(extract::statistic_rows()) + " (default: all)");
+                      "Statistics, comma separated: " + names(extract::statistic_rows()) +
+                          " (default: all but voxels and lot)");
   command->add_option("--pillars", options->pillars,
                       "AxB: cut each rank's part into A x B pillars that lie between those of others, which "
                       "evens out crowded surveys (default 1x1)");
   command->add_option("--memory", options->memory_mb,
                       "MB of other ranks' voxels that a rank keeps, where voxels move (default 1074)");
-  command->add_option("--snr", how.engine.snr,
-                      "dB: how true a computation that loses precision must stay (lot)");
+  command->add_option(
+      "--snr", how.engine.snr,
+      "dB, for --compute lot: keeps the voxels, within this signal-to-noise ratio (1 to 100)");
+  command->add_option(
+      "--lot-order", how.engine.lot_order,
+      "For --compute lot: 2d, the face as a picture, or 1d, as a line; =tuned: for band-limited "
+      "traces; 1d=zero: with zeros at the ends (default 2d)");
   command->add_option("--velocity", how.velocity,
                       "m/s: gives area and dip in metres and degrees in a time survey");
   command->add_flag("--dry-run", options->dry_run,

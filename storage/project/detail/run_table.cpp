@@ -1,6 +1,7 @@
 #include "storage/project/detail/run_table.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "storage/project/detail/clock.h"
 #include "storage/project/detail/names.h"
@@ -91,6 +92,32 @@ FaultRun RunTable::read(std::int64_t run, std::int64_t fault) const {
   return found;
 }
 
+std::vector<FaceVoxels> RunTable::voxels(std::int64_t run, std::int64_t fault) const {
+  std::vector<FaceVoxels> all;
+  Query row(database_,
+            "SELECT v.codec, v.parameters, v.ends, v.data, f.faces FROM face_voxels v JOIN extraction_fault f"
+            " ON f.run = v.run AND f.fault = v.fault WHERE v.run = ? AND v.fault = ? ORDER BY v.codec",
+            run, fault);
+  while (row.next()) {
+    FaceVoxels& voxels = all.emplace_back();
+    voxels.codec = row.text(0);
+    voxels.parameters = row.text(1);
+    const std::string what = fmt::format("run {}, fault {}: {}", run, fault, voxels.codec);
+    const std::int64_t faces = row.integer(4);
+    auto ends = row.view(2);
+    require_size(what, ends.size(), faces, sizeof(std::uint64_t));
+    voxels.ends = taken<std::uint64_t>(ends, static_cast<std::size_t>(faces));
+    const auto bytes = row.view(3);
+    const std::uint64_t last = voxels.ends.empty() ? 0 : voxels.ends.back();
+    if (!std::is_sorted(voxels.ends.begin(), voxels.ends.end()) || last != bytes.size()) {
+      throw Error(ErrorCode::kCorrupt, what + " does not hold the bytes of its faces",
+                  "compute it again with footwall extract");
+    }
+    voxels.bytes.assign(bytes.begin(), bytes.end());
+  }
+  return all;
+}
+
 std::int64_t RunTable::add(const RunRecord& run, std::span<const FaultRun> faults) {
   check_text("a run's name", run.name);
   if (run.live) {
@@ -142,9 +169,27 @@ void RunTable::add_fault(std::int64_t run, const FaultRun& f) {
           f.fault, statistic, data)
         .run();
   }
+  for (const FaceVoxels& voxels : f.voxels) {
+    refuse_length(voxels.codec, voxels.ends.size());
+    add_voxels(run, f, voxels);
+  }
+}
+
+void RunTable::add_voxels(std::int64_t run, const FaultRun& f, const FaceVoxels& voxels) {
+  if (static_cast<std::int64_t>(voxels.bytes.size()) > kLargestValue) {
+    throw Error(ErrorCode::kInvalid,
+                fmt::format("'{}' of fault '{}' takes {} bytes, more than a project holds in one value",
+                            voxels.codec, f.fault_name, voxels.bytes.size()),
+                "give a lower --snr, or take fewer faces at once");
+  }
+  Query(database_,
+        "INSERT INTO face_voxels(run, fault, codec, parameters, ends, data) VALUES(?, ?, ?, ?, ?, ?)", run,
+        f.fault, voxels.codec, voxels.parameters, packed(voxels.ends), voxels.bytes)
+      .run();
 }
 
 void RunTable::remove(std::int64_t run) {
+  Query(database_, "DELETE FROM face_voxels WHERE run = ?", run).run();
   Query(database_, "DELETE FROM face_statistics WHERE run = ?", run).run();
   Query(database_, "DELETE FROM extraction_fault WHERE run = ?", run).run();
   Query removed(database_, "DELETE FROM extraction WHERE id = ? RETURNING id", run);

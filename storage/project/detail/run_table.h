@@ -19,12 +19,15 @@ class RunTable {
   std::vector<std::int64_t> faults(std::int64_t run) const;
   // Throws kNotFound, kCorrupt.
   FaultRun read(std::int64_t run, std::int64_t fault) const;
+  // Throws kCorrupt.
+  std::vector<FaceVoxels> voxels(std::int64_t run, std::int64_t fault) const;
   // Throws kInvalid where the vectors differ in length or a statistic is not registered.
   std::int64_t add(const RunRecord& run, std::span<const FaultRun> faults);
   void remove(std::int64_t run);
 
  private:
   void add_fault(std::int64_t run, const FaultRun& fault);
+  void add_voxels(std::int64_t run, const FaultRun& fault, const FaceVoxels& voxels);
   Database& database_;
 };
 

@@ -85,7 +85,7 @@ CREATE TABLE face_statistics(
   FOREIGN KEY(run, fault) REFERENCES extraction_fault(run, fault)) STRICT;
 )sql";
 
-// An imported surface belongs to a fault without pillars (0: to none), and knows the units of its
+// 2: An imported surface belongs to a fault without pillars (0: to none), and knows the units of its
 // coordinates.
 const Migration kOwnMigrations[] = {
     {2, "imported surfaces belong to faults",
@@ -94,7 +94,15 @@ const Migration kOwnMigrations[] = {
      "ALTER TABLE surface ADD COLUMN vertical_unit TEXT NOT NULL DEFAULT 'm';",
      false,
      "CREATE TEMP VIEW surface AS SELECT id, name, kind, vertices, triangles, data, 0 AS fault,"
-     " 'm' AS horizontal_unit, 'm' AS vertical_unit FROM main.surface;"}};
+     " 'm' AS horizontal_unit, 'm' AS vertical_unit FROM main.surface;"},
+    {3, "runs may keep the voxels of their faces",
+     "CREATE TABLE face_voxels("
+     "run INTEGER NOT NULL, fault INTEGER NOT NULL, codec TEXT NOT NULL, parameters TEXT NOT NULL,"
+     " ends BLOB NOT NULL, data BLOB NOT NULL, PRIMARY KEY(run, fault, codec),"
+     " FOREIGN KEY(run, fault) REFERENCES extraction_fault(run, fault)) STRICT;",
+     false,
+     "CREATE TEMP VIEW face_voxels AS SELECT 0 AS run, 0 AS fault, '' AS codec, '' AS parameters,"
+     " x'' AS ends, x'' AS data WHERE 0;"}};
 
 constexpr const char* kUndoTables[] = {"fault", "pillar", "pillar_node", "surface"};
 

@@ -13,7 +13,7 @@ namespace footwall::session {
 namespace {
 
 Part some_part(int faces) {
-  Part part{42, "Nørre fault", 0x123456789abcdefULL, small_faces(42, faces), {}, {}};
+  Part part{42, "Nørre fault", 0x123456789abcdefULL, small_faces(42, faces), {}, {}, {}};
   for (int n = 0; n < faces; ++n) {
     extract::FaceStatistics statistics;
     statistics.count = n * 1000000000LL;
@@ -26,6 +26,14 @@ Part some_part(int faces) {
     statistics.discontinuity = 0.25;
     part.statistics.push_back(statistics);
     part.geometry.push_back(extract::face_geometry(small_geometry(), part.faces.back().triangle));
+  }
+  if (faces == 1) return part;
+  for (const char* name : {"voxels", "lot"}) {
+    extract::FaceBlobs& blobs = part.blobs.emplace_back(extract::FaceBlobs{name, {0}, {}});
+    for (int n = 0; n < faces; ++n) {
+      blobs.bytes.resize(blobs.bytes.size() + static_cast<std::size_t>(n % 5), static_cast<std::byte>(n));
+      blobs.offsets.push_back(blobs.bytes.size());
+    }
   }
   return part;
 }
@@ -41,6 +49,12 @@ TEST(PartFile, ReadsBackAsItWasWritten) {
     EXPECT_EQ(read.name, written.name);
     EXPECT_EQ(read.hash, written.hash);
     EXPECT_EQ(read.faces, written.faces);
+    ASSERT_EQ(read.blobs.size(), written.blobs.size());
+    for (std::size_t n = 0; n < read.blobs.size(); ++n) {
+      EXPECT_EQ(read.blobs[n].computation, written.blobs[n].computation);
+      EXPECT_EQ(read.blobs[n].offsets, written.blobs[n].offsets);
+      EXPECT_EQ(read.blobs[n].bytes, written.blobs[n].bytes);
+    }
     ASSERT_EQ(read.statistics.size(), written.statistics.size());
     for (std::size_t n = 0; n < read.statistics.size(); ++n) {
       EXPECT_EQ(read.statistics[n].count, written.statistics[n].count);

@@ -33,7 +33,7 @@ TEST_F(ProjectTest, TheSurveyAndSettingsComeBackExactly) {
   {
     auto project = Project::create(path_, small_survey());
     EXPECT_FALSE(project.read_only());
-    EXPECT_EQ(project.schema_version(), 2);
+    EXPECT_EQ(project.schema_version(), 3);
     project.set_setting("velocity", "2000.5");
   }
   auto project = Project::open(path_, OpenMode::kRead);
@@ -204,6 +204,29 @@ TEST_F(Runs, StatisticsComeBackBitByBit) {
   EXPECT_TRUE(project_->check().ok());
   project_->delete_run(id);
   EXPECT_THROW(project_->run(id), Error);
+}
+
+TEST_F(Runs, VoxelsOfFacesAreKeptAndGoWithTheirRun) {
+  FaultRun fault = result();
+  FaceVoxels voxels{"lot", R"({"snr":30})", {}, {}};
+  for (std::size_t n = 0; n < fault.panels.size(); ++n) {
+    voxels.bytes.resize(voxels.bytes.size() + n % 3, static_cast<std::byte>(n));
+    voxels.ends.push_back(voxels.bytes.size());
+  }
+  fault.voxels = {voxels};
+  const auto id = project_->add_run({}, std::vector<FaultRun>{fault});
+  const std::vector<FaceVoxels> back = project_->face_voxels(id, 1);
+  ASSERT_EQ(back.size(), 1U);
+  EXPECT_EQ(back[0].codec, "lot");
+  EXPECT_EQ(back[0].parameters, voxels.parameters);
+  EXPECT_EQ(back[0].ends, voxels.ends);
+  EXPECT_EQ(back[0].bytes, voxels.bytes);
+  EXPECT_TRUE(project_->check().ok());
+  project_->delete_run(id);
+  EXPECT_TRUE(project_->face_voxels(id, 1).empty());
+  fault.voxels[0].ends.pop_back();
+  EXPECT_EQ(error_of([&] { project_->add_run({}, std::vector<FaultRun>{fault}); }).code(),
+            ErrorCode::kInvalid);
 }
 
 TEST_F(Runs, ARunIsRefusedWholeWhenAPartOfItIsWrong) {
