@@ -38,6 +38,10 @@ struct FaceStatistics {
   double min = kUndefined;       // NaN where count is 0; never -0
   double max = kUndefined;
   double discontinuity = kUndefined;  // 0..1; NaN where not asked for or not defined
+  // See probes.h; NaN where not asked for or not defined.
+  double contrast = kUndefined;      // -1..1: discontinuity above that of the face moved to either side
+  double offset_voxels = kUndefined;  // -8..8, whole: where along the fault's normal it is highest
+  double offset_score = kUndefined;   // the discontinuity there
 };
 
 struct Options {
