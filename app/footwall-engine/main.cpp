@@ -1,5 +1,6 @@
-// The MPI program: runs one batch job on all ranks, or checks that they work together. Exit 0 done, 1 failed, 2 wrong
-// usage, 75 told to make room (SIGTERM; run it again and it goes on), 130 cancelled; a failure is printed once.
+// The MPI program: runs one batch job or makes one attribute volume on all ranks, or checks that they work
+// together. Exit 0 done, 1 failed, 2 wrong usage, 75 told to make room (SIGTERM; run it again and it goes
+// on), 130 cancelled; a failure is printed once.
 #include <signal.h>
 #include <sys/prctl.h>
 
@@ -7,7 +8,9 @@
 
 #include "app/footwall-engine/batch_command.h"
 #include "app/footwall-engine/check_command.h"
+#include "app/footwall-engine/running_job.h"
 #include "engine/comm/environment.h"
+#include "engine/session/attribute.h"
 #include "engine/session/batch.h"
 #include "engine/session/lonely_rank.h"
 
@@ -53,6 +56,9 @@ int run(const Communicator& world, int argc, char** argv) {
   CLI::App* check =
       app.add_subcommand("check", "tells whether the ranks work together; footwall doctor asks it");
   check->add_option("FOLDER", folder, "where they write and read a file together")->required();
+  CLI::App* attribute =
+      app.add_subcommand("attribute", "makes an attribute volume; footwall attribute starts it");
+  attribute->add_option("JOB", job, "what to make, JSON")->required();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -62,6 +68,8 @@ int run(const Communicator& world, int argc, char** argv) {
   }
   if (check->parsed()) {
     footwall::app::check(world, folder);
+  } else if (attribute->parsed()) {
+    footwall::session::run_attribute(world, job, footwall::app::running_job(world));
   } else {
     footwall::app::batch(world, job, options);
   }

@@ -11,6 +11,7 @@
 #include "engine/extract/balance/balance.h"
 #include "engine/extract/computations.h"
 #include "engine/extract/exchange/exchange.h"
+#include "engine/extract/probes.h"
 #include "engine/extract/registry.h"
 #include "engine/extract/statistics/discontinuity.h"
 #include "engine/voxelize/registry.h"
@@ -209,7 +210,8 @@ const comm::RankGrid& LoadedSurvey::grid() const {
 Result LoadedSurvey::extract(const Input& input, const Options& options, const JobContext& job) {
   const double start = omp_get_wtime();
   comm::Communicator& world = state_->world;
-  const bool with_discontinuity = asks_for(options, "discontinuity");
+  const std::size_t probes = probe_shifts(options).size();
+  const bool with_discontinuity = asks_for(options, "discontinuity") || probes > 0;
   const std::vector<const Computation*> whole_face = whole_face_computations(options);
   const Choice balance = parse_choice(options.balance);
   const Choice exchange_choice = parse_choice(options.exchange);
@@ -225,14 +227,21 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
   const comm::Traffic before = world.traffic();
 
   // 2 voxelize, 3 exchange, 4 compute
-  const Setup setup{world,           state_->grid,       state_->blocks, input,      responsible,     options,
-                    exchange_choice, with_discontinuity, scale,          whole_face, options.threads, job};
+  const double of_faces = 1 / static_cast<double>(1 + probes);  // of the time, about
+  const JobContext faces_job = job.part(0, of_faces);
+  const Setup setup{world,       state_->grid, state_->blocks,  input,
+                    responsible, options,      exchange_choice, with_discontinuity,
+                    scale,       whole_face,   options.threads, faces_job};
   const ExchangeStrategy& exchange = exchange_strategy(exchange_choice.name);
   Outcome outcome = exchange.run(setup);
+  run_probes(setup, job.part(of_faces, 1), outcome);
   const comm::Traffic after = world.traffic();
 
   Result result;
   result.faces = gathered(world, outcome.finished, input.faces.size());
+  world.collectively([&] {
+    if (world.rank() == 0) orient_offsets(input.faces, result.faces);
+  });
   if (!whole_face.empty()) {
     result.blobs = gathered_blobs(world, std::move(outcome.blobs), whole_face, input.faces.size());
   }
@@ -262,6 +271,30 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
   return result;
 }
 
+std::vector<FaultStatistics> LoadedSurvey::faults(const Input& input, const Options& options,
+                                                  const JobContext& job) {
+  const bool with_discontinuity = asks_for(options, "discontinuity") || !probe_shifts(options).empty();
+  const Choice choice = parse_choice(options.exchange);
+  const double scale = state_->world.collectively([&] {
+    validate(options);
+    require(input.dims == state_->grid.dims(), "faces of the survey that was read");
+    voxelize::apply_forced_simd();
+    return with_discontinuity ? discontinuity_scale(input.max_abs) : 0;
+  });
+  return fault_statistics({state_->world,
+                           state_->grid,
+                           state_->blocks,
+                           input,
+                           {},
+                           options,
+                           choice,
+                           with_discontinuity,
+                           scale,
+                           {},
+                           options.threads,
+                           job});
+}
+
 Result extract_all(const comm::Communicator& world, const Input& input, const Options& options,
                    const ReadBox& read, const JobContext& job) {
   world.collectively([&] { validate(options); });
@@ -286,7 +319,8 @@ std::uint64_t checksum_of(std::span<const Face> faces, std::span<const FaceStati
                                      face.nulls, static_cast<std::int64_t>(face.outside)}) {
       append(whole, bytes);
     }
-    for (const double value : {face.mean, face.variance, face.min, face.max, face.discontinuity}) {
+    for (const double value : {face.mean, face.variance, face.min, face.max, face.discontinuity,
+                               face.contrast, face.offset_voxels, face.offset_score}) {
       append(canonical(value), bytes);
     }
     hasher.add(bytes);

@@ -55,6 +55,7 @@ struct Options {
   std::array<int, 2> pillars{1, 1};      // of each rank along inlines and crosslines, see RankGrid
   std::int64_t cache_bytes = 1LL << 30;  // limit of a rank's remote voxels
   double snr = 0;                        // dB, for `lot`; 0 = not given
+  std::string filter = "band=4,32";      // of `filter`, see face_filter.h
   friend bool operator==(const Options&, const Options&) = default;
 };
 

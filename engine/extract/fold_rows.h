@@ -14,6 +14,11 @@ class RowFolder final : public voxelize::RowSink {
   RowFolder(const Block& block, bool with_discontinuity, double scale);
 
   void row(const voxelize::Row& row) override;
+  // One voxel, by its place in the block.
+  void place(std::int64_t place) {
+    if (used_ == capacity_) flush();
+    places_[used_++] = place;
+  }
   // What was folded since the last call; ends a face.
   Partial take();
 

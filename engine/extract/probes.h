@@ -1,5 +1,5 @@
-// Contrast and offset: how much more discontinuous the volume is on a face than on copies of the face that are
-// moved along its normal ("probes").
+// Contrast and offset: how much more discontinuous the volume is on a face than on copies of the face that
+// are moved along its normal ("probes").
 //
 //   contrast(F) = D(F) - (D(F + 6 n) + D(F - 6 n)) / 2       D = discontinuity, n = F's unit normal in voxels
 //   offset(F)   = the shift s in -8..8 voxels with the highest D(F + s n); its score is that D
@@ -29,27 +29,21 @@ namespace footwall::extract {
 struct Outcome;
 struct Setup;
 
-inline constexpr int kContrastShift = 6;   // voxels
-inline constexpr int kFarthestShift = 8;   // voxels
-inline constexpr std::int64_t kLeastSamples = 30;
-
 // The shifts, in voxels along the normal, at which the options need probes, ascending and without 0; empty
 // where neither contrast nor offset is asked for.
 std::span<const int> probe_shifts(const Options& options);
 
 // The triangle moved by `shift` voxels along its unit normal (by its winding), each component of the movement
-// rounded to the lattice, ties to even; none for a triangle without area, or where it would leave the lattice.
+// rounded to the lattice, ties to even; none for a triangle without area, or where it would leave the
+// lattice.
 std::optional<survey::LatticeTriangle> shifted(const survey::LatticeTriangle& triangle, int shift);
-
-// +1 or -1: what turns the normals of the windings to the fault's side. faces: all of one fault. The mean
-// normal is weighted by area, and exact; +1 where it is zero.
-int orientation(std::span<const Face> faces);
 
 // Puts contrast and offset, along the winding's normal, into outcome.finished, whose discontinuities must be
 // there. Collective; cancellable per face; does nothing where the options ask for neither.
 void run_probes(const Setup& setup, const JobContext& job, Outcome& outcome);
 
 // From the winding's normal to the fault's. faces: all of each fault, in any order; one statistic for each.
+// The mean normal is weighted by area, and exact; where it is zero, the windings decide.
 void orient_offsets(std::span<const Face> faces, std::span<FaceStatistics> statistics);
 
 }  // namespace footwall::extract

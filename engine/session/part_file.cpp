@@ -1,5 +1,6 @@
 #include "engine/session/part_file.h"
 
+#include "engine/session/fault_summary.h"
 #include "storage/base/error.h"
 #include "storage/base/hash.h"
 #include "storage/base/text.h"
@@ -9,19 +10,23 @@ namespace footwall::session {
 namespace {
 
 constexpr const char* kFormat = "footwall part";
-constexpr const char* kVersion = "2";
+constexpr const char* kVersion = "3";
 constexpr const char* kMend = "run the job again";
 
 using Ints = std::vector<std::int64_t>;
 using Numbers = std::vector<double>;
 
-constexpr std::array<const char*, 12> kValueNames{"mean",          "variance", "min",         "max",
-                                                  "discontinuity", "area",     "area_voxels", "dip",
-                                                  "dip_azimuth",   "normal_i", "normal_j",    "normal_k"};
+constexpr std::array<const char*, 16> kValueNames{
+    "mean",          "variance",    "min",           "max",
+    "discontinuity", "contrast",    "offset_voxels", "offset_score",
+    "area",          "area_voxels", "dip",           "dip_azimuth",
+    "normal_i",      "normal_j",    "normal_k",      "metres_along_normal"};
 
-std::array<double*, 12> fields(extract::FaceStatistics& s, extract::FaceGeometry& g) {
-  return {&s.mean,        &s.variance, &s.min,         &s.max,      &s.discontinuity, &g.area,
-          &g.area_voxels, &g.dip,      &g.dip_azimuth, &g.normal_i, &g.normal_j,      &g.normal_k};
+std::array<double*, 16> fields(extract::FaceStatistics& s, extract::FaceGeometry& g) {
+  return {&s.mean,          &s.variance,    &s.min,           &s.max,
+          &s.discontinuity, &s.contrast,    &s.offset_voxels, &s.offset_score,
+          &g.area,          &g.area_voxels, &g.dip,           &g.dip_azimuth,
+          &g.normal_i,      &g.normal_j,    &g.normal_k,      &g.metres_along_normal};
 }
 
 enum Place : std::size_t { kOwner, kN, kVertices, kCount, kNulls, kOutside, kValues };
@@ -29,7 +34,7 @@ enum Place : std::size_t { kOwner, kN, kVertices, kCount, kNulls, kOutside, kVal
 // The table of a part without its values: what is written first, and what is asked for when reading.
 volume::ColumnTable empty_table() {
   volume::ColumnTable table;
-  for (const char* name : {"format", "version", "fault", "name", "part_hash"}) table.texts[name];
+  for (const char* name : {"format", "version", "fault", "name", "part_hash", "whole"}) table.texts[name];
   table.columns = {{"owner", {}, Ints()},
                    {"n", {}, std::vector<std::int32_t>()},
                    {"vertices", {3, 3}, std::vector<std::int32_t>()},
@@ -60,7 +65,8 @@ void write_part(const Part& part, const std::filesystem::path& path) {
                  {"version", kVersion},
                  {"fault", std::to_string(part.fault)},
                  {"name", part.name},
-                 {"part_hash", to_hex(part.hash)}};
+                 {"part_hash", to_hex(part.hash)},
+                 {"whole", fault_summary(part.whole).dump()}};
   table.rows = static_cast<std::int64_t>(part.faces.size());
   for (std::size_t f = 0; f < part.faces.size(); ++f) {
     const extract::Face& face = part.faces[f];
@@ -97,6 +103,11 @@ Part read_part(const std::filesystem::path& path) {
   part.fault = *fault;
   part.name = table.texts["name"];
   part.hash = hash_from_hex(table.texts["part_hash"]);
+  try {
+    part.whole = fault_from_summary(nlohmann::json::parse(table.texts["whole"], nullptr, false));
+  } catch (const Error&) {
+    throw odd;
+  }
   const auto count = static_cast<std::size_t>(table.rows);
   part.faces.resize(count);
   part.statistics.resize(count);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include "app/footwall/commands/bench_quality.h"
 #include "app/footwall/commands/commands.h"
 #include "app/footwall/commands/options.h"
 #include "engine/tasks/bench_voxelize.h"
@@ -48,6 +49,7 @@ void add_bench(console::Program& program) {
   command->add_option("--threads", options->threads, "Threads (default 1)");
   command->add_option("--repeats", options->repeats, "Timed runs; the median counts (default 5)");
   command->add_option("--list", options->list, "Write every voxel to this file: triangle,i,j,k a line");
+  add_bench_quality(program, group);
 }
 
 }  // namespace footwall::commands

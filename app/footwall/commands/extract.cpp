@@ -177,8 +177,9 @@ void add_extract(console::Program& program) {
       "How faces are spread over ranks: " + names(extract::balance_rows()) + " (default none)");
   command->add_option("--voxelizer", how.engine.voxelizer,
                       "Which voxels a face cuts: " + names(extract::voxelizer_rows()) + " (default exact)");
-  command->add_option("--compute", options->compute,
-                      "Statistics, comma separated: " + names(extract::statistic_rows()) + " (default: all)");
+  command->add_option(
+      "--compute", options->compute,
+      "Statistics, comma separated: " + names(extract::statistic_rows()) + " (default: all but offset)");
   command->add_option("--velocity", how.velocity,
                       "m/s: gives area and dip in metres and degrees in a time survey");
   command->add_flag("--dry-run", options->dry_run,

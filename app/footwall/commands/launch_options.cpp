@@ -39,6 +39,7 @@ void add_result(const console::Json& result, console::Json& output) {
                           "seconds", "bytes_sent", "messages", "load_max_over_mean", "checksum"}) {
     output[key] = result.at(key);
   }
+  output["faults"] = result.at("faults");
 }
 
 std::string result_in_words(const console::Json& result) {
