@@ -4,6 +4,7 @@
 #include <array>
 
 #include "engine/extract/face_filter.h"
+#include "engine/extract/lot.h"
 #include "engine/extract/registry.h"
 
 namespace footwall::extract {
@@ -22,7 +23,11 @@ constexpr std::array kComputations{
     Computation{"offset", "how far beside the face the discontinuity is highest, up to 8 voxels", "voxel",
                 true, false, 1, nullptr},
     Computation{"filter", "the values of the face's voxels, band-passed or sharpened", "amplitude", true,
-                false, 0, &make_face_filter}};
+                false, 0, &make_face_filter},
+    Computation{"voxels", "the values of the voxels themselves, stored", "bytes", true, false, 0,
+                &make_voxels},
+    Computation{"lot", "the voxels' lapped orthogonal transform, stored with --snr", "bytes", true, false, 0,
+                &make_lot}};
 
 }  // namespace
 

@@ -128,6 +128,17 @@ std::vector<FaceBlobs> gathered_blobs(comm::Communicator& world, std::vector<Fin
   });
 }
 
+// Where "auto" may choose, one that moves voxels if they are needed.
+const ExchangeStrategy& fitting_strategy(std::string_view name, bool needs_voxels) {
+  if (name != "auto" || !needs_voxels) return exchange_strategy(name);
+  const std::span<const ExchangeStrategy> all = exchange_strategies();
+  const auto found = std::find_if(all.rbegin(), all.rend(), [](const ExchangeStrategy& each) {
+    return each.moves_voxels && each.run != nullptr;
+  });
+  require(found != all.rend(), "a strategy that moves voxels");
+  return exchange_strategy(found->name);
+}
+
 template <typename T>
 void append(T value, std::vector<std::byte>& bytes) {
   static_assert(std::endian::native == std::endian::little);
@@ -232,7 +243,7 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
   const Setup setup{world,       state_->grid, state_->blocks,  input,
                     responsible, options,      exchange_choice, with_discontinuity,
                     scale,       whole_face,   options.threads, faces_job};
-  const ExchangeStrategy& exchange = exchange_strategy(exchange_choice.name);
+  const ExchangeStrategy& exchange = fitting_strategy(exchange_choice.name, !whole_face.empty());
   Outcome outcome = exchange.run(setup);
   run_probes(setup, job.part(of_faces, 1), outcome);
   const comm::Traffic after = world.traffic();

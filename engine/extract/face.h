@@ -56,6 +56,7 @@ struct Options {
   std::int64_t cache_bytes = 1LL << 30;  // limit of a rank's remote voxels
   double snr = 0;                        // dB, for `lot`; 0 = not given
   std::string filter = "band=4,32";      // of `filter`, see face_filter.h
+  std::string lot_order = "2d";          // of `lot`, see lot.h
   friend bool operator==(const Options&, const Options&) = default;
 };
 

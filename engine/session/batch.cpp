@@ -203,7 +203,7 @@ void run_batch(const comm::Communicator& world, const std::filesystem::path& job
       const double done = share(before + faces.size());
       const extract::Input input{reader.info().dims, reader.info().statistics.max_abs, faces};
       const extract::Result result = survey.extract(input, job.options, context.part(share(before), done));
-      parts.write(group, result.faces, survey.faults(input, job.options, context.part(done, done)));
+      parts.write(group, result.faces, result.blobs, survey.faults(input, job.options, context.part(done, done)));
       totals.add(result.report);
       before += faces.size();
     }

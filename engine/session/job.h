@@ -10,7 +10,8 @@
 //                 where the volume covers only a part of the survey
 //   faces         {path, count, hash}: faces in the order of `faults`, see faces_file.h; hash of that file
 //   faults        [{id, name, revision, faces}]: faces = how many; revision of the mesh that they are of
-//   options       {exchange, balance, voxelizer, threads, compute[], velocity}: m/s or null
+//   options       {exchange, balance, voxelizer, threads, compute[], velocity, snr, lot_order, filter}:
+//                 velocity in m/s or null; snr in dB or 0, lot_order and filter may be left out
 //   output        folder for part files and result.json; made if it is not there
 //   run           what the run is to be called in the project; "" = as usual
 #pragma once
@@ -64,7 +65,8 @@ Job parse_job(const JobFiles& files, const std::filesystem::path& folder);
 std::filesystem::path output_of(const std::filesystem::path& job_path);
 
 // What decides the numbers of a fault's part: volume_checksum, geometry (without its words: crs, assumed),
-// statistics, velocity, and its faces; not ranks, threads, exchange, balance, names or paths.
+// statistics, velocity, how voxels are coded, and its faces; not ranks, threads, exchange, balance, names or
+// paths.
 std::uint64_t part_hash(const Job& job, const JobFault& fault);
 // Of the parts of all faults, in their order: the same for jobs that give the same numbers.
 std::uint64_t job_hash(const Job& job);

@@ -12,6 +12,7 @@ namespace {
 constexpr const char* kFormat = "footwall part";
 constexpr const char* kVersion = "3";
 constexpr const char* kMend = "run the job again";
+constexpr const char* kNone = "none";
 
 using Ints = std::vector<std::int64_t>;
 using Numbers = std::vector<double>;
@@ -30,11 +31,14 @@ std::array<double*, 16> fields(extract::FaceStatistics& s, extract::FaceGeometry
 }
 
 enum Place : std::size_t { kOwner, kN, kVertices, kCount, kNulls, kOutside, kValues };
+constexpr std::size_t kBlobEnds = kValues + kValueNames.size();
+constexpr std::size_t kBlobs = kBlobEnds + 1;
 
 // The table of a part without its values: what is written first, and what is asked for when reading.
 volume::ColumnTable empty_table() {
   volume::ColumnTable table;
-  for (const char* name : {"format", "version", "fault", "name", "part_hash", "whole"}) table.texts[name];
+  for (const char* name : {"format", "version", "fault", "name", "part_hash", "whole", "whole_face"})
+    table.texts[name];
   table.columns = {{"owner", {}, Ints()},
                    {"n", {}, std::vector<std::int32_t>()},
                    {"vertices", {3, 3}, std::vector<std::int32_t>()},
@@ -42,12 +46,55 @@ volume::ColumnTable empty_table() {
                    {"nulls", {}, Ints()},
                    {"outside", {}, std::vector<std::uint8_t>()}};
   for (const char* name : kValueNames) table.columns.push_back({name, {}, Numbers()});
+  table.columns.push_back({"blob_ends", {}, Ints(), true});
+  table.columns.push_back({"blobs", {}, std::vector<std::uint8_t>(), true});
   return table;
 }
 
 template <typename T>
 std::vector<T>& column(volume::ColumnTable& table, std::size_t place) {
   return std::get<std::vector<T>>(table.columns[place].values);
+}
+
+void put_blobs(const std::vector<extract::FaceBlobs>& blobs, std::size_t faces, volume::ColumnTable& table) {
+  std::string& names = table.texts["whole_face"];
+  auto& ends = column<std::int64_t>(table, kBlobEnds);
+  auto& bytes = column<std::uint8_t>(table, kBlobs);
+  for (const extract::FaceBlobs& each : blobs) {
+    require(each.offsets.size() == faces + 1, "a result of every face");
+    names += (names.empty() ? "" : ",") + each.computation;
+    const auto start = static_cast<std::int64_t>(bytes.size());
+    for (std::size_t f = 1; f <= faces; ++f) {
+      ends.push_back(start + static_cast<std::int64_t>(each.offsets[f]));
+    }
+    const auto* first = reinterpret_cast<const std::uint8_t*>(each.bytes.data());
+    bytes.insert(bytes.end(), first, first + each.bytes.size());
+  }
+  if (names.empty()) names = kNone;
+}
+
+std::vector<extract::FaceBlobs> taken_blobs(volume::ColumnTable& table, std::size_t faces, const Error& odd) {
+  std::vector<extract::FaceBlobs> all;
+  const auto& ends = column<std::int64_t>(table, kBlobEnds);
+  const auto& bytes = column<std::uint8_t>(table, kBlobs);
+  std::size_t next = 0;
+  std::int64_t start = 0;
+  if (table.texts["whole_face"] != kNone) {
+    for (const std::string_view name : text::split(table.texts["whole_face"], ',')) {
+      if (ends.size() - next < faces) throw odd;
+      extract::FaceBlobs& blobs = all.emplace_back(extract::FaceBlobs{std::string(name), {0}, {}});
+      const std::int64_t first = start;
+      for (std::size_t f = 0; f < faces; ++f, ++next) {
+        if (ends[next] < start || ends[next] > static_cast<std::int64_t>(bytes.size())) throw odd;
+        start = ends[next];
+        blobs.offsets.push_back(static_cast<std::uint64_t>(start - first));
+      }
+      const auto* from = reinterpret_cast<const std::byte*>(bytes.data());
+      blobs.bytes.assign(from + first, from + start);
+    }
+  }
+  if (next != ends.size() || start != static_cast<std::int64_t>(bytes.size())) throw odd;
+  return all;
 }
 
 }  // namespace
@@ -82,6 +129,7 @@ void write_part(const Part& part, const std::filesystem::path& path) {
     const auto values = fields(statistics, geometry);
     for (std::size_t v = 0; v < values.size(); ++v) column<double>(table, kValues + v).push_back(*values[v]);
   }
+  put_blobs(part.blobs, part.faces.size(), table);
   volume::write_column_file(table, path);
 }
 
@@ -109,6 +157,7 @@ Part read_part(const std::filesystem::path& path) {
     throw odd;
   }
   const auto count = static_cast<std::size_t>(table.rows);
+  part.blobs = taken_blobs(table, count, odd);
   part.faces.resize(count);
   part.statistics.resize(count);
   part.geometry.resize(count);

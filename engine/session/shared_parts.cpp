@@ -43,10 +43,48 @@ std::optional<Statistics> earlier_part(const Job& job, const JobFault& fault) {
   return std::nullopt;
 }
 
+void append_number(std::uint64_t number, comm::Bytes& bytes) {
+  const auto raw = std::as_bytes(std::span(&number, 1));
+  bytes.insert(bytes.end(), raw.begin(), raw.end());
+}
+
+std::uint64_t taken_number(std::span<const std::byte>& bytes) {
+  std::uint64_t number = 0;
+  require(bytes.size() >= sizeof number, "a number");
+  std::memcpy(&number, bytes.data(), sizeof number);
+  bytes = bytes.subspan(sizeof number);
+  return number;
+}
+
+// The results of `faces` faces from the one at `first`: how many bytes each has, then the bytes.
+void append(const extract::FaceBlobs& blobs, std::size_t first, std::size_t faces, comm::Bytes& bytes) {
+  append_number(blobs.computation.size(), bytes);
+  const auto name = std::as_bytes(std::span(blobs.computation));
+  bytes.insert(bytes.end(), name.begin(), name.end());
+  const std::uint64_t start = blobs.offsets.at(first);
+  for (std::size_t f = first; f <= first + faces; ++f) append_number(blobs.offsets.at(f) - start, bytes);
+  const auto own = std::span(blobs.bytes).subspan(start, blobs.offsets[first + faces] - start);
+  bytes.insert(bytes.end(), own.begin(), own.end());
+}
+
+extract::FaceBlobs taken_blobs(std::span<const std::byte>& bytes, std::size_t faces) {
+  extract::FaceBlobs blobs;
+  const std::uint64_t letters = taken_number(bytes);
+  require(bytes.size() >= letters, "a name");
+  blobs.computation.assign(reinterpret_cast<const char*>(bytes.data()), letters);
+  bytes = bytes.subspan(letters);
+  for (std::size_t f = 0; f <= faces; ++f) blobs.offsets.push_back(taken_number(bytes));
+  require(bytes.size() >= blobs.offsets.back(), "the results of all faces");
+  const auto own = bytes.first(blobs.offsets.back());
+  blobs.bytes.assign(own.begin(), own.end());
+  bytes = bytes.subspan(own.size());
+  return blobs;
+}
+
 Part new_part(const Job& job, const JobFault& fault, Statistics statistics) {
   const extract::FaceStatistics whole = statistics.back();
   statistics.pop_back();
-  Part part{fault.id, fault.name, part_hash(job, fault), fault.faces, std::move(statistics), {}, whole};
+  Part part{fault.id, fault.name, part_hash(job, fault), fault.faces, std::move(statistics), {}, {}, whole};
   part.geometry.reserve(part.faces.size());
   for (const extract::Face& face : part.faces) {
     part.geometry.push_back(extract::face_geometry(job.geometry, face.triangle, job.velocity));
@@ -115,8 +153,9 @@ std::vector<std::vector<std::size_t>> SharedParts::groups(std::size_t faces) con
 
 void SharedParts::write(const std::vector<std::size_t>& faults,
                         std::span<const extract::FaceStatistics> statistics,
+                        std::span<const extract::FaceBlobs> blobs,
                         std::span<const extract::FaultStatistics> wholes) {
-  // 1 Rank 0 gives every rank the statistics of the parts that it writes.
+  // 1 Rank 0 gives every rank the results of the parts that it writes.
   const std::vector<comm::Bytes> heard = world_.exchange(world_.collectively([&] {
     std::vector<comm::Bytes> outgoing(static_cast<std::size_t>(world_.size()));
     if (world_.rank() != 0) return outgoing;
@@ -127,8 +166,11 @@ void SharedParts::write(const std::vector<std::size_t>& faults,
       const auto whole = std::find_if(wholes.begin(), wholes.end(),
                                       [&](const auto& one) { return one.fault == job_.faults[n].id; });
       if (whole != wholes.end()) wholes_[n] = whole->statistics;  // a fault without faces has none
-      append(part, outgoing[static_cast<std::size_t>(writer_of(n))]);
-      append(std::span(&wholes_[n], 1), outgoing[static_cast<std::size_t>(writer_of(n))]);
+      comm::Bytes& to = outgoing[static_cast<std::size_t>(writer_of(n))];
+      append(part, to);
+      append(std::span(&wholes_[n], 1), to);
+      append_number(blobs.size(), to);
+      for (const extract::FaceBlobs& each : blobs) append(each, next, count, to);
       statistics_[n].assign(part.begin(), part.end());
       next += count;
     }
@@ -140,8 +182,11 @@ void SharedParts::write(const std::vector<std::size_t>& faults,
     for (const std::size_t n : faults) {
       if (writer_of(n) != world_.rank()) continue;
       const JobFault& fault = job_.faults[n];
-      write_part(new_part(job_, fault, taken(rest, fault.faces.size() + 1)),
-                 part_path(job_.output, fault.id));
+      Part part = new_part(job_, fault, taken(rest, fault.faces.size() + 1));
+      for (std::uint64_t left = taken_number(rest); left > 0; --left) {
+        part.blobs.push_back(taken_blobs(rest, fault.faces.size()));
+      }
+      write_part(part, part_path(job_.output, fault.id));
     }
   });
   for (const std::size_t n : faults) done_[n] = true;

@@ -34,6 +34,12 @@ std::int64_t width_of(const Column& column) {
   return width;
 }
 
+std::int64_t rows_of(const ColumnTable& table, const Column& column) {
+  if (!column.own_rows) return table.rows;
+  const std::size_t count = std::visit([](const auto& values) { return values.size(); }, column.values);
+  return static_cast<std::int64_t>(count) / std::max<std::int64_t>(width_of(column), 1);
+}
+
 std::vector<hsize_t> shape_of(const Column& column, std::int64_t rows) {
   std::vector<hsize_t> shape{static_cast<hsize_t>(rows)};
   for (const std::int64_t each : column.inner) shape.push_back(static_cast<hsize_t>(each));
@@ -106,7 +112,8 @@ void write_column_file(const ColumnTable& table, const std::filesystem::path& pa
   quiet_hdf5();
   for (const Column& column : table.columns) {
     const std::size_t count = std::visit([](const auto& values) { return values.size(); }, column.values);
-    require(static_cast<std::int64_t>(count) == table.rows * width_of(column), "all rows of every column");
+    require(static_cast<std::int64_t>(count) == rows_of(table, column) * width_of(column),
+            "all rows of every column");
   }
   const std::string failed = "cannot write " + path.string();
   const std::string hint = "is the disk full, or the folder read-only?";
@@ -116,7 +123,9 @@ void write_column_file(const ColumnTable& table, const std::filesystem::path& pa
   if (!file) throw_hdf5(ErrorCode::kIo, failed, hint);
   for (const auto& [name, text] : table.texts) write_attribute(file.id(), name, text);
   write_attribute(file.id(), kCheck, check_of(table));
-  for (const Column& column : table.columns) write_column(file.id(), column, table.rows, failed);
+  for (const Column& column : table.columns) {
+    write_column(file.id(), column, rows_of(table, column), failed);
+  }
   if (!file.reset()) throw_hdf5(ErrorCode::kIo, failed, hint);
   partial.commit();
 }
@@ -142,6 +151,7 @@ ColumnTable read_column_file(const std::filesystem::path& path, const ColumnTabl
     std::optional<std::int64_t> rows;
     for (Column& column : table.columns) {
       const std::int64_t found = read_column(file.id(), column, path, odd);
+      if (column.own_rows) continue;
       if (rows && *rows != found) throw odd;
       rows = found;
     }

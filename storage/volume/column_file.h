@@ -19,6 +19,7 @@ struct Column {
   std::string name;
   std::vector<std::int64_t> inner;  // the shape of one row: {} for a number, {3, 3} for a triangle
   ColumnValues values;              // on reading: its alternative says the type that is wanted
+  bool own_rows = false;            // it may have another number of rows than the table
 };
 
 struct ColumnTable {

@@ -180,6 +180,9 @@ void add_extract(console::Program& program) {
   command->add_option(
       "--compute", options->compute,
       "Statistics, comma separated: " + names(extract::statistic_rows()) + " (default: all but offset)");
+  command->add_option("--filter", how.engine.filter,
+                      "Of --compute filter: band=SHORT,LONG or sharpen=AMOUNT,LENGTH, wavelengths in voxels "
+                      "(default band=4,32)");
   command->add_option("--velocity", how.velocity,
                       "m/s: gives area and dip in metres and degrees in a time survey");
   command->add_flag("--dry-run", options->dry_run,

@@ -191,6 +191,22 @@ Partial folded(const Setup& setup, const std::vector<Coordinates>& voxels, const
   return partial;
 }
 
+// The whole-face results of a face; `rows`, `values` and `tools` are one thread's.
+void compute_blobs(const Setup& setup, std::size_t face, const std::vector<Coordinates>& voxels,
+                   const Values& all, voxelize::Voxelizer& voxelizer, FaceRows& rows,
+                   std::vector<float>& values, std::span<const std::unique_ptr<WholeFace>> tools,
+                   std::vector<FinishedBlob>& blobs) {
+  rows.clear();
+  voxelizer.rows(setup.face(face).triangle, {{0, 0, 0}, setup.input.dims}, rows);
+  values.resize(voxels.size());
+  std::transform(voxels.begin(), voxels.end(), values.begin(),
+                 [&](const Coordinates& p) { return all.at(p); });
+  for (std::size_t c = 0; c < tools.size(); ++c) {
+    FinishedBlob& blob = blobs.emplace_back(FinishedBlob{static_cast<std::int64_t>(face), c, {}});
+    tools[c]->compute({setup.face(face), rows, values}, blob.bytes);
+  }
+}
+
 }  // namespace
 
 Outcome exchange_minimum(const Setup& setup) {
@@ -210,11 +226,32 @@ Outcome exchange_minimum(const Setup& setup) {
     Values values(setup, plan);
     take_answers(setup, plan, replies, values);
     std::vector<Finished> finished(plan.faces.size());
-    parallel_faces(finished.size(), setup.threads, setup.job, "compute", [&](std::size_t, std::size_t n) {
-      const Partial partial = folded(setup, plan.voxels[n], values);
-      finished[n] = {static_cast<std::int64_t>(plan.faces[n]),
-                     finish(partial, inside(setup.face(plan.faces[n]).triangle, setup.input.dims))};
-    });
+    struct Worker {
+      std::unique_ptr<voxelize::Voxelizer> voxelizer;
+      std::vector<std::unique_ptr<WholeFace>> tools;
+      FaceRows rows;
+      std::vector<float> values;
+      std::vector<FinishedBlob> blobs;
+    };
+    std::vector<Worker> workers(static_cast<std::size_t>(setup.threads));
+    for (Worker& worker : workers) {
+      worker.voxelizer = voxelize::make_voxelizer(setup.options.voxelizer);
+      for (const Computation* each : setup.whole_face) worker.tools.push_back(each->make(setup.options));
+    }
+    parallel_faces(
+        finished.size(), setup.threads, setup.job, "compute", [&](std::size_t thread, std::size_t n) {
+          Worker& w = workers[thread];
+          if (!w.tools.empty()) {
+            compute_blobs(setup, plan.faces[n], plan.voxels[n], values, *w.voxelizer, w.rows, w.values,
+                          w.tools, w.blobs);
+          }
+          const Partial partial = folded(setup, plan.voxels[n], values);
+          finished[n] = {static_cast<std::int64_t>(plan.faces[n]),
+                         finish(partial, inside(setup.face(plan.faces[n]).triangle, setup.input.dims))};
+        });
+    for (Worker& worker : workers) {
+      std::move(worker.blobs.begin(), worker.blobs.end(), std::back_inserter(outcome.blobs));
+    }
     return finished;
   });
   for (const auto& voxels : plan.voxels) outcome.walked += static_cast<std::int64_t>(voxels.size());

@@ -13,7 +13,7 @@ namespace footwall::session {
 namespace {
 
 Part some_part(int faces) {
-  Part part{42, "Nørre fault", 0x123456789abcdefULL, small_faces(42, faces), {}, {}};
+  Part part{42, "Nørre fault", 0x123456789abcdefULL, small_faces(42, faces), {}, {}, {}};
   for (int n = 0; n < faces; ++n) {
     extract::FaceStatistics statistics;
     statistics.count = n * 1000000000LL;
