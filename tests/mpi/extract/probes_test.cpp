@@ -120,10 +120,10 @@ class Probes : public testing::TestWithParam<std::string_view> {
 };
 
 TEST_P(Probes, AreTheDefinition) {
-  check(made_case({26, 22, 30}, 60, 1), 1);
+  check(made_case({26, 22, 30}, 36, 1), 1);
 }
 TEST_P(Probes, AreTheDefinitionWithThreads) {
-  check(made_case({26, 22, 30}, 40, 2), 3);
+  check(made_case({26, 22, 30}, 32, 2), 3);
 }
 TEST_P(Probes, HaveNoPlaceInTinySurveys) {
   check(made_case({1, 1, 1}, 12, 3), 1);
