@@ -143,19 +143,18 @@ void write_attribute_job(const AttributeJob& job, const std::filesystem::path& p
 
 AttributeJob read_attribute_job(const std::filesystem::path& path) {
   const Json json = Json::parse(read_whole_file(path, kJobLimit), nullptr, false);
+  const Error odd(ErrorCode::kFormat, path.string() + " is no attribute job of this version",
+                  "use footwall attribute");
   try {
-    if (json.at("footwall_attribute") != 1 || json.at("kind") != "discontinuity") throw Json::object();
+    if (json.at("footwall_attribute") != 1 || json.at("kind") != "discontinuity") throw odd;
     AttributeJob job;
     job.window = extract::parse_window(json.at("window").get<std::string>());
     job.volume = json.at("volume").get<std::string>();
     job.output = json.at("output").get<std::string>();
     job.result = json.at("result").get<std::string>();
     return job;
-  } catch (const Error&) {
-    throw;
-  } catch (...) {
-    throw Error(ErrorCode::kFormat, path.string() + " is no attribute job of this version",
-                "use footwall attribute");
+  } catch (const Json::exception&) {
+    throw odd;
   }
 }
 

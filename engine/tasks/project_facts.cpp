@@ -172,7 +172,8 @@ Json project_facts(const project::Project& project, bool verify, const JobContex
     facts["runs"].push_back(
         {{"run", run.id}, {"name", run.name}, {"volume", run.volume}, {"when", run.when}});
     const Json result = Json::parse(run.result, nullptr, false);
-    facts["runs"].back()["faults"] = result.value("faults", Json::array());
+    facts["runs"].back()["faults"] =
+        result.is_object() ? result.value("faults", Json::array()) : Json::array();
   }
   facts["missing"] = Json::array();
   for (const project::MissingFile& file : project.missing()) {

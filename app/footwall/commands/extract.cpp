@@ -179,7 +179,7 @@ void add_extract(console::Program& program) {
                       "Which voxels a face cuts: " + names(extract::voxelizer_rows()) + " (default exact)");
   command->add_option(
       "--compute", options->compute,
-      "Statistics, comma separated: " + names(extract::statistic_rows()) + " (default: all but offset)");
+      "Statistics, comma separated: " + names(extract::statistic_rows()) + " (default: count to contrast)");
   command->add_option("--filter", how.engine.filter,
                       "Of --compute filter: band=SHORT,LONG or sharpen=AMOUNT,LENGTH, wavelengths in voxels "
                       "(default band=4,32)");
