@@ -99,7 +99,7 @@ class Extract(FootwallTest):
 
     def test_what_is_not_built_is_refused_with_the_reason(self):
         project = self.prepared()
-        for option, value in (("--exchange", "push"), ("--balance", "global"), ("--voxelizer", "gpu"), ("--compute", "lot")):
+        for option, value in (("--exchange", "push"), ("--balance", "global"), ("--voxelizer", "gpu"), ("--compute", "filters")):
             error = self.refused(2, "extract", project, option, value)
             self.assertEqual(error["code"], "usage")
             self.assertIn(value, error["message"])
