@@ -1,6 +1,6 @@
-// The MPI program: runs one batch job or scripted workload on all ranks, or checks that they work together.
-// Exit 0 done, 1 failed, 2 wrong usage, 75 told to make room (SIGTERM; run it again and it goes on), 130
-// cancelled; a failure is printed once.
+// The MPI program: runs one batch job or scripted workload, or makes one attribute volume, on all ranks, or
+// checks that they work together. Exit 0 done, 1 failed, 2 wrong usage, 75 told to make room (SIGTERM; run it
+// again and it goes on), 130 cancelled; a failure is printed once.
 #include <signal.h>
 #include <sys/prctl.h>
 
@@ -11,6 +11,7 @@
 #include "app/footwall-engine/running_job.h"
 #include "app/footwall-engine/workload_command.h"
 #include "engine/comm/environment.h"
+#include "engine/session/attribute.h"
 #include "engine/session/batch.h"
 #include "engine/session/lonely_rank.h"
 
@@ -57,6 +58,9 @@ int run(const Communicator& world, int argc, char** argv) {
       app.add_subcommand("check", "tells whether the ranks work together; footwall doctor asks it");
   check->add_option("FOLDER", folder, "where they write and read a file together")->required();
   footwall::app::WorkloadCommand workload(app);
+  CLI::App* attribute =
+      app.add_subcommand("attribute", "makes an attribute volume; footwall attribute starts it");
+  attribute->add_option("JOB", job, "what to make, JSON")->required();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -68,6 +72,8 @@ int run(const Communicator& world, int argc, char** argv) {
     footwall::app::check(world, folder);
   } else if (workload.parsed()) {
     workload.run(world);
+  } else if (attribute->parsed()) {
+    footwall::session::run_attribute(world, job, footwall::app::running_job(world));
   } else {
     footwall::app::batch(world, job, options);
   }

@@ -39,7 +39,7 @@ std::uint64_t checksum_of(std::span<const Face> faces, std::span<const FaceStati
   for (const std::size_t n : order_of(faces)) {
     const Face& face = faces[n];
     const FaceStatistics& s = statistics[n];
-    const std::array<std::uint64_t, 11> words{static_cast<std::uint64_t>(face.fault),
+    const std::array<std::uint64_t, 14> words{static_cast<std::uint64_t>(face.fault),
                                               static_cast<std::uint64_t>(face.owner),
                                               static_cast<std::uint64_t>(std::int64_t{face.n}),
                                               static_cast<std::uint64_t>(s.count),
@@ -49,7 +49,10 @@ std::uint64_t checksum_of(std::span<const Face> faces, std::span<const FaceStati
                                               bits(s.variance),
                                               bits(s.min),
                                               bits(s.max),
-                                              bits(s.discontinuity)};
+                                              bits(s.discontinuity),
+                                              bits(s.contrast),
+                                              bits(s.offset_voxels),
+                                              bits(s.offset_score)};
     hasher.add(std::as_bytes(std::span(words)));
   }
   return hasher.value();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/extract/face_filter.h"
 #include "engine/extract/lot.h"
 #include "engine/extract/registry.h"
 
@@ -17,6 +18,12 @@ constexpr std::array kComputations{
     Computation{"max", "largest amplitude", "amplitude", true, true, 0, nullptr},
     Computation{"discontinuity", "0 where the traces around are alike, towards 1 where they are not", "1",
                 true, true, 1, nullptr},
+    Computation{"contrast", "discontinuity of the face above that 6 voxels beside it, on both sides", "1",
+                true, false, 1, nullptr},
+    Computation{"offset", "how far beside the face the discontinuity is highest, up to 8 voxels", "voxel",
+                true, false, 1, nullptr},
+    Computation{"filter", "the values of the face's voxels, band-passed or sharpened", "amplitude", true,
+                false, 0, &make_face_filter},
     Computation{"voxels", "the values of the voxels themselves, stored", "bytes", true, false, 0,
                 &make_voxels},
     Computation{"lot", "the voxels' lapped orthogonal transform, stored with --snr", "bytes", true, false, 0,

@@ -4,6 +4,7 @@
 
 #include "engine/extract/balance/area.h"
 #include "engine/extract/loaded_survey.h"
+#include "engine/extract/probes.h"
 #include "engine/extract/registry.h"
 #include "engine/extract/report.h"
 
@@ -24,14 +25,32 @@ void run_exchange(LoadedSurvey::State& state, const Plan& plan, const Input& inp
                   std::span<const int> responsible, const JobContext& job, Ran& ran) {
   comm::Communicator& world = state.world;
   const comm::Traffic before = world.traffic();
-  const Setup setup{world,      state.grid,      state.blocks,         state.remote->cache(), state.remote->sent(),
-                    input,      responsible,     plan.options,         plan.exchange, plan.with_discontinuity,
-                    plan.scale, plan.whole_face, plan.options.threads, state.kept,    job};
+  const double of_faces = 1 / static_cast<double>(1 + probe_shifts(plan.options).size());  // of the time
+  const JobContext faces_job = job.part(0, of_faces);
+  const Setup setup{world,
+                    state.grid,
+                    state.blocks,
+                    state.remote->cache(),
+                    state.remote->sent(),
+                    input,
+                    responsible,
+                    plan.options,
+                    plan.exchange,
+                    plan.with_discontinuity,
+                    plan.scale,
+                    plan.whole_face,
+                    plan.options.threads,
+                    state.kept,
+                    faces_job};
   if (plan.strategy->moves_voxels) {
     ran.outcome = state.remote->run(*plan.strategy, setup);
     state.directory.add(input.faces, responsible);
   } else {
     ran.outcome = plan.strategy->run(setup);
+  }
+  if (!probe_shifts(plan.options).empty()) {
+    world.agree(ran.outcome.failure);
+    run_probes(setup, job.part(of_faces, 1), ran.outcome);
   }
   ran.traffic = {world.traffic().bytes - before.bytes, world.traffic().messages - before.messages};
   state.gather.statistics(world, responsible, ran.outcome.finished, ran.faces);
@@ -71,8 +90,10 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
   Result result;
   std::optional<Error> failure = std::move(ran.outcome.failure);
   try {
-    if (!failure && world.rank() == 0)
+    if (!failure && world.rank() == 0) {
+      orient_offsets(input.faces, ran.faces);
       mine.sums.checksum = static_cast<std::int64_t>(checksum_of(input.faces, ran.faces));
+    }
     const std::vector<FixedArea> areas = fixed_areas(input.faces);
     result.report.loads = loads_of(areas, responsible, world.size());
     result.report.load_deviation = load_deviation(result.report.loads);
@@ -98,6 +119,29 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
   report.faces = static_cast<std::int64_t>(input.faces.size());
   report.walked_here = ran.outcome.walked;
   return result;
+}
+
+std::vector<FaultStatistics> LoadedSurvey::faults(const Input& input, const Options& options,
+                                                  const JobContext& job) {
+  const Plan plan = state_->world.collectively([&] {
+    require(input.dims == state_->grid.dims(), "faces of the survey that was read");
+    return plan_of(options, input.max_abs);
+  });
+  return fault_statistics({state_->world,
+                           state_->grid,
+                           state_->blocks,
+                           state_->remote->cache(),
+                           state_->remote->sent(),
+                           input,
+                           {},
+                           plan.options,
+                           plan.exchange,
+                           plan.with_discontinuity,
+                           plan.scale,
+                           {},
+                           plan.options.threads,
+                           state_->kept,
+                           job});
 }
 
 Result extract_all(const comm::Communicator& world, const Input& input, const Options& options,

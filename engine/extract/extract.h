@@ -9,6 +9,7 @@
 #include "engine/comm/communicator.h"
 #include "engine/extract/face.h"
 #include "engine/extract/face_blobs.h"
+#include "engine/extract/fault_statistics.h"
 #include "storage/base/job_context.h"
 #include "storage/survey/box.h"
 
@@ -51,6 +52,10 @@ class LoadedSurvey {
   // Collective; as extract_all. Report::seconds.read is that of the constructor, and part of the total.
   Result extract(const Input& input, const Options& options, const JobContext& job = {});
 
+  // The statistics of whole faults over distinct voxels, on rank 0; see fault_statistics.h. Collective;
+  // throws as extract.
+  std::vector<FaultStatistics> faults(const Input& input, const Options& options, const JobContext& job = {});
+
   const comm::RankGrid& grid() const;
   // Drops the voxels of other ranks that were kept for later extractions. By convention every rank calls it.
   void forget_cache();
@@ -68,8 +73,8 @@ class LoadedSurvey {
 Result extract_all(const comm::Communicator& world, const Input& input, const Options& options,
                    const ReadBox& read, const JobContext& job = {});
 
-// hash64 over (fault, owner, n, count, nulls, outside, mean, variance, min, max, discontinuity) of every face
-// in order of its identity, little-endian, all NaNs alike.
+// hash64 over (fault, owner, n, count, nulls, outside, mean, variance, min, max, discontinuity, contrast,
+// offset_voxels, offset_score) of every face in order of its identity, little-endian, all NaNs alike.
 std::uint64_t checksum_of(std::span<const Face> faces, std::span<const FaceStatistics> statistics);
 
 }  // namespace footwall::extract

@@ -38,6 +38,10 @@ struct FaceStatistics {
   double min = kUndefined;       // NaN where count is 0; never -0
   double max = kUndefined;
   double discontinuity = kUndefined;  // 0..1; NaN where not asked for or not defined
+  // See probes.h; NaN where not asked for or not defined.
+  double contrast = kUndefined;       // -1..1: discontinuity above that of the face moved to either side
+  double offset_voxels = kUndefined;  // -8..8, whole: where along the fault's normal it is highest
+  double offset_score = kUndefined;   // the discontinuity there
 };
 
 struct Options {
@@ -51,6 +55,7 @@ struct Options {
   std::array<int, 2> pillars{1, 1};      // of each rank along inlines and crosslines, see RankGrid
   std::int64_t cache_bytes = 1LL << 30;  // limit of a rank's remote voxels
   double snr = 0;                        // dB, for `lot`; 0 = not given
+  std::string filter = "band=4,32";      // of `filter`, see face_filter.h
   std::string lot_order = "2d";          // of `lot`, see lot.h
   friend bool operator==(const Options&, const Options&) = default;
 };

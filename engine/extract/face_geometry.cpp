@@ -72,14 +72,17 @@ FaceGeometry face_geometry(const survey::Geometry& geometry, const survey::Latti
 
   // East, north and down, in metres; without a velocity the vertical is in samples, which leaves the azimuth
   // alone.
-  for (Vector& edge : edges) {
+  const auto in_metres = [&](const Vector& voxels) -> Vector {
     const survey::MapView& map = geometry.map;
-    const double east = map.per_inline_x * edge[0] + map.per_crossline_x * edge[1];
-    const double north = map.per_inline_y * edge[0] + map.per_crossline_y * edge[1];
+    const double east = map.per_inline_x * voxels[0] + map.per_crossline_x * voxels[1];
+    const double north = map.per_inline_y * voxels[0] + map.per_crossline_y * voxels[1];
     const double down =
-        metric ? geometry.vertical_metres(edge[2] * geometry.interval, velocity.value_or(0)) : edge[2];
-    edge = {geometry.horizontal_metres(east), geometry.horizontal_metres(north), down};
-  }
+        metric ? geometry.vertical_metres(voxels[2] * geometry.interval, velocity.value_or(0)) : voxels[2];
+    return {geometry.horizontal_metres(east), geometry.horizontal_metres(north), down};
+  };
+  for (Vector& edge : edges) edge = in_metres(edge);
+  if (metric)
+    result.metres_along_normal = length(in_metres({result.normal_i, result.normal_j, result.normal_k}));
   Vector world = cross(edges[0], edges[1]);
   const double world_length = length(world);
   if (world_length == 0) return result;

@@ -8,7 +8,7 @@
 
 namespace footwall::extract {
 
-// NaN = undefined: all but the areas for a degenerate face; area and dip in a time survey without velocity.
+// NaN = undefined: all but the areas for a degenerate face; what is metric in a time survey without velocity.
 // Of a vertical face the azimuth is that of the side its normal points to after turning it so that it does
 // not point down: the winding decides.
 struct FaceGeometry {
@@ -20,6 +20,7 @@ struct FaceGeometry {
   double normal_i = kUndefined;     // unit normal in index space; its sign follows the winding
   double normal_j = kUndefined;
   double normal_k = kUndefined;
+  double metres_along_normal = kUndefined;  // of one voxel's length along that normal; metric
 };
 
 // velocity: metres per second, for a time survey only (half of it, as times are two-way). Throws kInvalid for

@@ -180,8 +180,21 @@ void Incremental::State::fill(const Tally& all) {
   report.load_deviation = load_deviation(report.loads);
 }
 
+namespace {
+
+// The sign of a fault's offsets hangs on all of its faces.
+void refuse_offset(const Options& options) {
+  if (!asks_for(options, "offset")) return;
+  throw Error(ErrorCode::kUnsupported, "offset is not computed by an extraction of changed faces alone",
+              "extract all faces, or leave offset out of the computations");
+}
+
+}  // namespace
+
 Incremental::Incremental(LoadedSurvey& survey, double max_abs, Options options)
-    : state_(std::make_unique<State>(survey, max_abs, options)) {}
+    : state_(std::make_unique<State>(survey, max_abs, options)) {
+  refuse_offset(options);
+}
 Incremental::~Incremental() = default;
 
 const Update& Incremental::update(const FaceChanges& changes, const JobContext& job) {

@@ -1,5 +1,6 @@
 #include "engine/extract/plan.h"
 
+#include "engine/extract/probes.h"
 #include "engine/extract/registry.h"
 #include "engine/extract/statistics/discontinuity.h"
 #include "engine/voxelize/registry.h"
@@ -54,7 +55,7 @@ Plan plan_of(const Options& options, double max_abs) {
   }
   for (const Computation* each : plan.whole_face) each->make(options);
   check_numbers(options);
-  plan.with_discontinuity = asks_for(options, "discontinuity");
+  plan.with_discontinuity = asks_for(options, "discontinuity") || !probe_shifts(options).empty();
   if (plan.with_discontinuity) plan.scale = discontinuity_scale(max_abs);
   voxelize::apply_forced_simd();
   return plan;

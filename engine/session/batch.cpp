@@ -8,6 +8,7 @@
 #include "engine/extract/balance/area.h"
 #include "engine/extract/extract.h"
 #include "engine/extract/registry.h"
+#include "engine/session/fault_summary.h"
 #include "engine/session/job.h"
 #include "engine/session/part_file.h"
 #include "engine/session/shared_parts.h"
@@ -135,6 +136,7 @@ Json summary(const Job& job, const std::filesystem::path& job_path, const extrac
   std::vector<extract::Face> faces;
   std::vector<extract::FaceStatistics> statistics;
   Json files = Json::array();
+  Json faults = Json::array();
   std::int64_t voxels = 0;
   for (std::size_t n = 0; n < job.faults.size(); ++n) {
     const JobFault& fault = job.faults[n];
@@ -142,6 +144,8 @@ Json summary(const Job& job, const std::filesystem::path& job_path, const extrac
     faces.insert(faces.end(), fault.faces.begin(), fault.faces.end());
     statistics.insert(statistics.end(), computed.begin(), computed.end());
     for (const extract::FaceStatistics& face : computed) voxels += face.count + face.nulls;
+    faults.push_back(fault_summary(parts.wholes()[n]));
+    faults.back().update({{"fault", fault.id}, {"name", fault.name}, {"faces", fault.faces.size()}});
     files.push_back({{"fault", fault.id},
                      {"name", fault.name},
                      {"file", part_path({}, fault.id).string()},
@@ -167,6 +171,7 @@ Json summary(const Job& job, const std::filesystem::path& job_path, const extrac
           {"seconds", with_total(phases(report.seconds), total_seconds)},
           {"quickest_seconds", phases(report.quickest)},
           {"volume", {{"path", job.volume.string()}, {"checksum", job.volume_checksum}}},
+          {"faults", faults},
           {"parts", files}};
 }
 
@@ -225,10 +230,11 @@ void run_batch(const comm::Communicator& world, const std::filesystem::path& job
       const auto share = [&](std::size_t n) {
         return all_faces == 0 ? 0.98 : 0.5 + 0.48 * static_cast<double>(n) / static_cast<double>(all_faces);
       };
+      const double done = share(before + faces.size());
       const extract::Input input{reader.info().dims, reader.info().statistics.max_abs, faces};
-      const extract::Result result =
-          survey.extract(input, job.options, context.part(share(before), share(before + faces.size())));
-      parts.write(group, result.faces, result.blobs);
+      const extract::Result result = survey.extract(input, job.options, context.part(share(before), done));
+      parts.write(group, result.faces, result.blobs,
+                  survey.faults(input, job.options, context.part(done, done)));
       totals.add(result.report);
       before += faces.size();
     }

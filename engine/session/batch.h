@@ -2,9 +2,10 @@
 //
 // result.json: {job, ranks, threads, exchange, balance, voxelizer, faces, voxels, bytes_sent, messages,
 // load_max_over_mean, checksum (16 hex digits), seconds{read,voxelize,exchange,compute,total}, volume{path,
-// checksum}, parts[{fault, name, file, faces, reused}]}. Faults whose whole part matches the job are not
-// computed again; amounts, bytes and seconds are of what was computed, faces, voxels and checksum of
-// everything.
+// checksum}, faults[{fault, name, faces, count, nulls, outside, mean, variance, min, max, discontinuity}],
+// parts[{fault, name, file, faces, reused}]}. faults[]: over the distinct voxels of each. Faults whose whole
+// part matches the job are not computed again; amounts, bytes and seconds are of what was computed, faces,
+// voxels and checksum of everything.
 //
 // The volume is read once; faults are then taken in groups, whose parts are on disk before the next group
 // starts: a job that is stopped loses one group at the most (a twentieth of the faces, or 20,000 of them).

@@ -74,6 +74,7 @@ Job header_from_json(const Json& json, const std::filesystem::path& folder,
   options.at("compute").get_to(job.options.compute);
   job.options.snr = options.value("snr", job.options.snr);
   job.options.lot_order = options.value("lot_order", job.options.lot_order);
+  job.options.filter = options.value("filter", job.options.filter);
   if (!options.at("velocity").is_null()) job.velocity = options.at("velocity").get<double>();
   if (job.velocity && !(*job.velocity > 0)) throw bad("the velocity must be positive");
   job.output = beside(folder, json.at("output"));
@@ -124,7 +125,8 @@ void write_job(const Job& job, const std::filesystem::path& path) {
                     {"compute", job.options.compute},
                     {"velocity", optional_number(job.velocity)},
                     {"snr", job.options.snr},
-                    {"lot_order", job.options.lot_order}}},
+                    {"lot_order", job.options.lot_order},
+                    {"filter", job.options.filter}}},
                   {"output", job.output.string()},
                   {"run", job.run}};
   std::string text;
@@ -207,7 +209,8 @@ std::uint64_t part_hash(const Job& job, const JobFault& fault) {
                       {"compute", job.options.compute},
                       {"velocity", optional_number(job.velocity)},
                       {"snr", job.options.snr},
-                      {"lot_order", job.options.lot_order}};
+                      {"lot_order", job.options.lot_order},
+                      {"filter", job.options.filter}};
   Hasher hasher;
   for (const std::string& bytes : {settings.dump(), faces_to_bytes(fault.faces)}) {
     hasher.add(std::as_bytes(std::span(bytes)));

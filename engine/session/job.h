@@ -10,9 +10,10 @@
 //                 where the volume covers only a part of the survey
 //   faces         {path, count, hash}: faces in the order of `faults`, see faces_file.h; hash of that file
 //   faults        [{id, name, revision, faces}]: faces = how many; revision of the mesh that they are of
-//   options       {exchange, balance, voxelizer, threads, compute[], velocity}: velocity in m/s or null; may be
-//                 left out: snr in dB or 0, lot_order, pillars [a, b] of a rank along inlines and crosslines,
-//                 and cache, bytes of other ranks' voxels that a rank keeps
+//   options       {exchange, balance, voxelizer, threads, compute[], velocity}: velocity in m/s or null; may
+//   be
+//                 left out: snr in dB or 0, lot_order, filter, pillars [a, b] of a rank along inlines and
+//                 crosslines, and cache, bytes of other ranks' voxels that a rank keeps
 //   output        folder for part files and result.json; made if it is not there
 //   run           what the run is to be called in the project; "" = as usual
 #pragma once

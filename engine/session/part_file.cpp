@@ -1,5 +1,6 @@
 #include "engine/session/part_file.h"
 
+#include "engine/session/fault_summary.h"
 #include "storage/base/error.h"
 #include "storage/base/hash.h"
 #include "storage/base/text.h"
@@ -16,13 +17,17 @@ constexpr const char* kNone = "none";
 using Ints = std::vector<std::int64_t>;
 using Numbers = std::vector<double>;
 
-constexpr std::array<const char*, 12> kValueNames{"mean",          "variance", "min",         "max",
-                                                  "discontinuity", "area",     "area_voxels", "dip",
-                                                  "dip_azimuth",   "normal_i", "normal_j",    "normal_k"};
+constexpr std::array<const char*, 16> kValueNames{
+    "mean",          "variance",    "min",           "max",
+    "discontinuity", "contrast",    "offset_voxels", "offset_score",
+    "area",          "area_voxels", "dip",           "dip_azimuth",
+    "normal_i",      "normal_j",    "normal_k",      "metres_along_normal"};
 
-std::array<double*, 12> fields(extract::FaceStatistics& s, extract::FaceGeometry& g) {
-  return {&s.mean,        &s.variance, &s.min,         &s.max,      &s.discontinuity, &g.area,
-          &g.area_voxels, &g.dip,      &g.dip_azimuth, &g.normal_i, &g.normal_j,      &g.normal_k};
+std::array<double*, 16> fields(extract::FaceStatistics& s, extract::FaceGeometry& g) {
+  return {&s.mean,          &s.variance,    &s.min,           &s.max,
+          &s.discontinuity, &s.contrast,    &s.offset_voxels, &s.offset_score,
+          &g.area,          &g.area_voxels, &g.dip,           &g.dip_azimuth,
+          &g.normal_i,      &g.normal_j,    &g.normal_k,      &g.metres_along_normal};
 }
 
 enum Place : std::size_t { kOwner, kN, kVertices, kCount, kNulls, kOutside, kValues };
@@ -32,7 +37,7 @@ constexpr std::size_t kBlobs = kBlobEnds + 1;
 // The table of a part without its values: what is written first, and what is asked for when reading.
 volume::ColumnTable empty_table() {
   volume::ColumnTable table;
-  for (const char* name : {"format", "version", "fault", "name", "part_hash", "whole_face"})
+  for (const char* name : {"format", "version", "fault", "name", "part_hash", "whole", "whole_face"})
     table.texts[name];
   table.columns = {{"owner", {}, Ints()},
                    {"n", {}, std::vector<std::int32_t>()},
@@ -107,7 +112,8 @@ void write_part(const Part& part, const std::filesystem::path& path) {
                  {"version", kVersion},
                  {"fault", std::to_string(part.fault)},
                  {"name", part.name},
-                 {"part_hash", to_hex(part.hash)}};
+                 {"part_hash", to_hex(part.hash)},
+                 {"whole", fault_summary(part.whole).dump()}};
   table.rows = static_cast<std::int64_t>(part.faces.size());
   for (std::size_t f = 0; f < part.faces.size(); ++f) {
     const extract::Face& face = part.faces[f];
@@ -145,6 +151,11 @@ Part read_part(const std::filesystem::path& path) {
   part.fault = *fault;
   part.name = table.texts["name"];
   part.hash = hash_from_hex(table.texts["part_hash"]);
+  try {
+    part.whole = fault_from_summary(nlohmann::json::parse(table.texts["whole"], nullptr, false));
+  } catch (const Error&) {
+    throw odd;
+  }
   const auto count = static_cast<std::size_t>(table.rows);
   part.blobs = taken_blobs(table, count, odd);
   part.faces.resize(count);

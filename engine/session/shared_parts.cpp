@@ -1,5 +1,6 @@
 #include "engine/session/shared_parts.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "engine/extract/face_geometry.h"
@@ -26,12 +27,16 @@ Statistics taken(std::span<const std::byte>& bytes, std::size_t faces) {
   return statistics;
 }
 
+// The statistics of the faces, and behind them those of the whole fault.
 std::optional<Statistics> earlier_part(const Job& job, const JobFault& fault) {
   const std::filesystem::path path = part_path(job.output, fault.id);
   if (!std::filesystem::exists(path)) return std::nullopt;
   try {
     Part part = read_part(path);
-    if (part.hash == part_hash(job, fault) && part.faces == fault.faces) return std::move(part.statistics);
+    if (part.hash == part_hash(job, fault) && part.faces == fault.faces) {
+      part.statistics.push_back(part.whole);
+      return std::move(part.statistics);
+    }
   } catch (const Error&) {
     // Not whole, or not ours: it is computed and written again.
   }
@@ -77,7 +82,9 @@ extract::FaceBlobs taken_blobs(std::span<const std::byte>& bytes, std::size_t fa
 }
 
 Part new_part(const Job& job, const JobFault& fault, Statistics statistics) {
-  Part part{fault.id, fault.name, part_hash(job, fault), fault.faces, std::move(statistics), {}, {}};
+  const extract::FaceStatistics whole = statistics.back();
+  statistics.pop_back();
+  Part part{fault.id, fault.name, part_hash(job, fault), fault.faces, std::move(statistics), {}, {}, whole};
   part.geometry.reserve(part.faces.size());
   for (const extract::Face& face : part.faces) {
     part.geometry.push_back(extract::face_geometry(job.geometry, face.triangle, job.velocity));
@@ -88,7 +95,11 @@ Part new_part(const Job& job, const JobFault& fault, Statistics statistics) {
 }  // namespace
 
 SharedParts::SharedParts(const comm::Communicator& world, const Job& job)
-    : world_(world.get()), job_(job), done_(job.faults.size()), statistics_(job.faults.size()) {
+    : world_(world.get()),
+      job_(job),
+      done_(job.faults.size()),
+      statistics_(job.faults.size()),
+      wholes_(job.faults.size()) {
   const std::size_t faults = job.faults.size();
   const auto ranks = static_cast<std::size_t>(world_.size());
   // 1 Every rank looks for its own parts, and tells all ranks which it has; rank 0 gets what is in them.
@@ -115,7 +126,10 @@ SharedParts::SharedParts(const comm::Communicator& world, const Job& job)
       for (std::size_t each = 0; each < theirs.size(); ++each) {
         const std::size_t n = theirs[each];
         done_[n] = heard[r][each] != std::byte{0};
-        if (done_[n] && world_.rank() == 0) statistics_[n] = taken(contents, job_.faults[n].faces.size());
+        if (!done_[n] || world_.rank() != 0) continue;
+        statistics_[n] = taken(contents, job_.faults[n].faces.size() + 1);
+        wholes_[n] = statistics_[n].back();
+        statistics_[n].pop_back();
       }
     }
     reused_ = done_;
@@ -139,7 +153,8 @@ std::vector<std::vector<std::size_t>> SharedParts::groups(std::size_t faces) con
 
 void SharedParts::write(const std::vector<std::size_t>& faults,
                         std::span<const extract::FaceStatistics> statistics,
-                        std::span<const extract::FaceBlobs> blobs) {
+                        std::span<const extract::FaceBlobs> blobs,
+                        std::span<const extract::FaultStatistics> wholes) {
   // 1 Rank 0 gives every rank the results of the parts that it writes.
   const std::vector<comm::Bytes> heard = world_.exchange(world_.collectively([&] {
     std::vector<comm::Bytes> outgoing(static_cast<std::size_t>(world_.size()));
@@ -148,8 +163,12 @@ void SharedParts::write(const std::vector<std::size_t>& faults,
     for (const std::size_t n : faults) {
       const std::size_t count = job_.faults[n].faces.size();
       const auto part = statistics.subspan(next, count);
+      const auto whole = std::find_if(wholes.begin(), wholes.end(),
+                                      [&](const auto& one) { return one.fault == job_.faults[n].id; });
+      if (whole != wholes.end()) wholes_[n] = whole->statistics;  // a fault without faces has none
       comm::Bytes& to = outgoing[static_cast<std::size_t>(writer_of(n))];
       append(part, to);
+      append(std::span(&wholes_[n], 1), to);
       append_number(blobs.size(), to);
       for (const extract::FaceBlobs& each : blobs) append(each, next, count, to);
       statistics_[n].assign(part.begin(), part.end());
@@ -163,7 +182,7 @@ void SharedParts::write(const std::vector<std::size_t>& faults,
     for (const std::size_t n : faults) {
       if (writer_of(n) != world_.rank()) continue;
       const JobFault& fault = job_.faults[n];
-      Part part = new_part(job_, fault, taken(rest, fault.faces.size()));
+      Part part = new_part(job_, fault, taken(rest, fault.faces.size() + 1));
       for (std::uint64_t left = taken_number(rest); left > 0; --left) {
         part.blobs.push_back(taken_blobs(rest, fault.faces.size()));
       }

@@ -6,6 +6,7 @@
 
 #include "engine/comm/communicator.h"
 #include "engine/extract/face_blobs.h"
+#include "engine/extract/fault_statistics.h"
 #include "engine/session/job.h"
 
 namespace footwall::session {
@@ -21,11 +22,14 @@ class SharedParts {
   // Faults that are not done, in groups of about `faces` faces.
   std::vector<std::vector<std::size_t>> groups(std::size_t faces) const;
   // Collective: writes the parts of `faults`. `statistics` and `blobs`, on rank 0, have those of their faces
-  // one after the other; they are not looked at elsewhere. Throws kIo on all ranks.
+  // one after the other, `wholes` those of each fault in any order; they are not looked at elsewhere. Throws
+  // kIo on all ranks.
   void write(const std::vector<std::size_t>& faults, std::span<const extract::FaceStatistics> statistics,
-             std::span<const extract::FaceBlobs> blobs);
+             std::span<const extract::FaceBlobs> blobs, std::span<const extract::FaultStatistics> wholes);
   // On rank 0: the statistics of every fault that is done, one per face.
   const std::vector<std::vector<extract::FaceStatistics>>& statistics() const { return statistics_; }
+  // On rank 0: those over the distinct voxels of every fault that is done.
+  const std::vector<extract::FaceStatistics>& wholes() const { return wholes_; }
 
  private:
   int writer_of(std::size_t fault) const { return static_cast<int>(fault) % world_.size(); }
@@ -34,6 +38,7 @@ class SharedParts {
   const Job& job_;
   std::vector<bool> done_, reused_;
   std::vector<std::vector<extract::FaceStatistics>> statistics_;
+  std::vector<extract::FaceStatistics> wholes_;
 };
 
 }  // namespace footwall::session

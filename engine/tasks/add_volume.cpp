@@ -7,6 +7,7 @@
 
 #include "storage/base/error.h"
 #include "storage/base/hash.h"
+#include "storage/volume/volume_reader.h"
 
 namespace footwall::tasks {
 namespace {
@@ -107,15 +108,34 @@ survey::Index origin_in(const survey::Geometry& survey, const survey::Geometry& 
   return origin;
 }
 
-project::VolumeRecord add_volume(project::Project& project, const std::string& name,
-                                 const VolumeSource& source, const JobContext& job) {
-  project::check_name("volume", name);  // before the long work, not after it
+void check_free_name(const project::Project& project, const std::string& name) {
+  project::check_name("volume", name);
   for (const project::VolumeRecord& other : project.volumes()) {
     if (other.name == name) {
       throw Error(ErrorCode::kInvalid, fmt::format("the project has a volume '{}' already", name),
                   "choose another --name");
     }
   }
+}
+
+fs::path free_volume_path(const project::Project& project, const std::string& name) {
+  std::error_code failure;
+  fs::create_directories(project.volumes_folder(), failure);
+  if (failure) throw io_error("create", project.volumes_folder(), failure.value());
+  return free_path(project.volumes_folder(), name);
+}
+
+project::VolumeRecord list_volume(project::Project& project, const std::string& name, const fs::path& path) {
+  project::VolumeRecord record = record_of(volume::VolumeReader(path).info());
+  record.name = name;
+  record.file = project.relative_file(path);
+  record.id = project.add_volume(record);
+  return record;
+}
+
+project::VolumeRecord add_volume(project::Project& project, const std::string& name,
+                                 const VolumeSource& source, const JobContext& job) {
+  check_free_name(project, name);  // before the long work, not after it
   source.geometry.validate();
   const std::optional<survey::Geometry> survey = project.survey();
   volume::WriteOptions options;
@@ -123,6 +143,7 @@ project::VolumeRecord add_volume(project::Project& project, const std::string& n
   if (survey) options.origin = origin_in(*survey, source.geometry);
   options.null_value = source.null_value;
   options.role = source.role;
+  options.high_is_fault = source.high_is_fault;
   options.source = source.text;
   options.provenance_json = source.provenance_json;
 

@@ -1,6 +1,7 @@
 // Puts a volume into a project: streams it into the volumes folder, then lists it. A failure or cancel leaves
 // neither.
 #pragma once
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -19,6 +20,7 @@ struct VolumeSource {
   volume::BlockSource fill;
   std::optional<float> null_value;
   volume::Role role = volume::Role::kAmplitude;
+  bool high_is_fault = true;           // of a discontinuity: what high values mean
   std::string text;                    // in words, e.g. "SEG-Y f3.sgy"
   std::string provenance_json = "{}";  // how it was made
   // What only reading the samples can tell, in words, e.g. how many did not fit into a float32; may be empty.
@@ -30,6 +32,14 @@ struct VolumeSource {
 // Throws kInvalid with the numbers where they do not, or where the name is taken; and what writing throws.
 project::VolumeRecord add_volume(project::Project& project, const std::string& name,
                                  const VolumeSource& source, const JobContext& job);
+
+// Throws kInvalid where the project has a volume of that name, or no volume can be called so.
+void check_free_name(const project::Project& project, const std::string& name);
+// A path in the volumes folder, which is made if need be, at which no file stands yet. Throws kIo.
+std::filesystem::path free_volume_path(const project::Project& project, const std::string& name);
+// Lists a whole volume file that stands in the volumes folder already. Throws what opening it throws.
+project::VolumeRecord list_volume(project::Project& project, const std::string& name,
+                                  const std::filesystem::path& path);
 
 // The index of part's first voxel in the survey. Throws kInvalid, with both numbers, where line numbers,
 // steps, interval, domain or map differ, or where the part reaches outside.

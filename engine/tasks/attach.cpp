@@ -8,6 +8,7 @@
 
 #include "engine/extract/extract.h"
 #include "engine/extract/lot.h"
+#include "engine/session/fault_summary.h"
 #include "engine/session/part_file.h"
 #include "engine/tasks/statistics.h"
 #include "storage/base/error.h"
@@ -180,15 +181,19 @@ void refuse_a_second_time(const project::Project& project, const std::string& ha
 Json result_of(const session::Job& job, const std::vector<std::size_t>& faults) {
   std::vector<extract::Face> faces;
   std::vector<extract::FaceStatistics> statistics;
+  Json wholes = Json::array();
   std::int64_t voxels = 0;
   for (const std::size_t n : faults) {
     const session::Part part = session::read_part(session::part_path(job.output, job.faults[n].id));
     faces.insert(faces.end(), part.faces.begin(), part.faces.end());
+    wholes.push_back(session::fault_summary(part.whole));
+    wholes.back().update({{"fault", part.fault}, {"name", part.name}, {"faces", part.faces.size()}});
     statistics.insert(statistics.end(), part.statistics.begin(), part.statistics.end());
     for (const extract::FaceStatistics& face : part.statistics) voxels += face.count + face.nulls;
   }
   Json result{{"faces", faces.size()},
               {"voxels", voxels},
+              {"faults", wholes},
               {"checksum", to_hex(extract::checksum_of(faces, statistics))},
               {"voxelizer", job.options.voxelizer}};
   for (const char* unknown :

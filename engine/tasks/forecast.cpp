@@ -8,9 +8,11 @@
 
 #include "engine/comm/rank_grid.h"
 #include "engine/extract/choice.h"
+#include "engine/extract/computations.h"
 #include "engine/extract/exchange/exchange.h"
 #include "engine/extract/extract.h"
 #include "engine/extract/fold_rows.h"
+#include "engine/extract/probes.h"
 #include "engine/session/launcher.h"
 #include "engine/voxelize/exact.h"
 #include "engine/voxelize/registry.h"
@@ -171,9 +173,8 @@ Rates measured(const session::Job& job, const volume::VolumeReader& reader, cons
   rates.bytes = static_cast<double>(bytes_of(chunks, wanted)) / (omp_get_wtime() - start);
 
   const auto voxelizer = voxelize::make_voxelizer(job.options.voxelizer);
-  const bool discontinuity =
-      job.options.compute.empty() || std::find(job.options.compute.begin(), job.options.compute.end(),
-                                               "discontinuity") != job.options.compute.end();
+  const std::size_t probes = extract::probe_shifts(job.options).size();
+  const bool discontinuity = extract::asks_for(job.options, "discontinuity") || probes > 0;
   extract::RowFolder folder(
       block, discontinuity,
       discontinuity ? extract::discontinuity_scale(reader.info().statistics.max_abs) : 0);
@@ -204,7 +205,8 @@ Rates measured(const session::Job& job, const volume::VolumeReader& reader, cons
     if (voxels == before) break;  // no face lies here
   }
   require(counts <= voxels, "no more values than voxels");
-  if (voxels > 0) rates.voxels = static_cast<double>(voxels) / spent;
+  // A probe costs what its face does, and the faces of whole faults are walked once more.
+  if (voxels > 0) rates.voxels = static_cast<double>(voxels) / spent / static_cast<double>(2 + probes);
   return rates;
 }
 

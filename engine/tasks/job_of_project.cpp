@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/extract/computations.h"
 #include "engine/extract/registry.h"
 #include "engine/tasks/open_volume.h"
 #include "engine/tasks/triangulate.h"
@@ -11,17 +12,6 @@
 
 namespace footwall::tasks {
 namespace {
-
-project::VolumeRecord present_volume(const project::Project& project, const std::string& name) {
-  project::VolumeRecord volume = project.volume(name);
-  for (const project::MissingFile& missing : project.missing()) {
-    if (missing.volume != volume.name) continue;
-    throw Error(ErrorCode::kNotFound,
-                fmt::format("the volume '{}' {}: {}", volume.name, missing.reason, missing.path.string()),
-                fmt::format("footwall relink {} FILE tells where it is now", project.path().string()));
-  }
-  return volume;
-}
 
 // A fresh mesh of the fault; nothing where it cannot be made a surface, which is noted.
 std::optional<project::MeshRecord> fresh_mesh(project::Project& project, const project::FaultRecord& fault,
@@ -74,11 +64,20 @@ session::JobFault job_fault(const project::FaultRecord& fault, const project::Me
 
 }  // namespace
 
+std::vector<std::string> default_statistics() {
+  std::vector<std::string> names;
+  for (const extract::Computation& row : extract::computations()) {
+    if (row.by_default || row.name == "contrast") names.emplace_back(row.name);
+  }
+  return names;
+}
+
 JobOfProject job_of_project(project::Project& project, const ExtractOptions& options, FreshMeshes meshes,
                             const JobContext& context) {
   JobOfProject made;
   session::Job& job = made.job;
   job.options = options.engine;
+  if (job.options.compute.empty()) job.options.compute = default_statistics();
   job.options.threads = options.launch.threads > 0 ? options.launch.threads : session::default_threads();
   extract::validate(job.options);
   if (!options.name.empty()) project::check_name("run", options.name);

@@ -27,4 +27,15 @@ volume::VolumeReader open_volume(const project::Project& project, const project:
   return reader;
 }
 
+project::VolumeRecord present_volume(const project::Project& project, const std::string& name) {
+  project::VolumeRecord volume = project.volume(name);
+  for (const project::MissingFile& missing : project.missing()) {
+    if (missing.volume != volume.name) continue;
+    throw Error(ErrorCode::kNotFound,
+                fmt::format("the volume '{}' {}: {}", volume.name, missing.reason, missing.path.string()),
+                fmt::format("footwall relink {} FILE tells where it is now", project.path().string()));
+  }
+  return volume;
+}
+
 }  // namespace footwall::tasks

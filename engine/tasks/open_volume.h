@@ -9,4 +9,7 @@ namespace footwall::tasks {
 // VolumeReader throws.
 volume::VolumeReader open_volume(const project::Project& project, const project::VolumeRecord& volume);
 
+// The row of a volume (empty name: the first) whose file is where it should be. Throws kNotFound.
+project::VolumeRecord present_volume(const project::Project& project, const std::string& name);
+
 }  // namespace footwall::tasks

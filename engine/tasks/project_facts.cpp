@@ -41,6 +41,13 @@ Json survey_json(const survey::Geometry& survey) {
             {"per_crossline", {survey.map.per_crossline_x, survey.map.per_crossline_y}}}}};
 }
 
+// "fault" or "continuous" for a discontinuity volume, null for others.
+Json high_is(const project::VolumeRecord& volume) {
+  if (volume.role != "discontinuity") return {};
+  const Json provenance = Json::parse(volume.provenance, nullptr, false);
+  return provenance.is_object() ? provenance.value("high_is", Json("fault")) : Json("fault");
+}
+
 Json volume_json(const project::VolumeRecord& volume) {
   const bool any = volume.null_count < volume.dims[0] * volume.dims[1] * volume.dims[2];
   const auto statistic = [&](double value) { return any ? number(value) : Json(); };
@@ -55,6 +62,7 @@ Json volume_json(const project::VolumeRecord& volume) {
           {"null_count", volume.null_count},
           {"live_traces", volume.live_traces},
           {"role", volume.role},
+          {"high_is", high_is(volume)},
           {"source", volume.source},
           {"bytes", volume.bytes},
           {"checksum", volume.checksum}};
@@ -163,6 +171,9 @@ Json project_facts(const project::Project& project, bool verify, const JobContex
   for (const project::RunRecord& run : project.runs()) {
     facts["runs"].push_back(
         {{"run", run.id}, {"name", run.name}, {"volume", run.volume}, {"when", run.when}});
+    const Json result = Json::parse(run.result, nullptr, false);
+    facts["runs"].back()["faults"] =
+        result.is_object() ? result.value("faults", Json::array()) : Json::array();
   }
   facts["missing"] = Json::array();
   for (const project::MissingFile& file : project.missing()) {

@@ -41,6 +41,16 @@ const std::vector<Column>& columns() {
       {"max", "amplitude", "red-white-blue", "largest amplitude", statistic(&S::max)},
       {"discontinuity", "1", "cividis", "0 continuous to 1 discontinuous, independent of gain",
        statistic(&S::discontinuity)},
+      {"contrast", "1", "red-white-blue",
+       "discontinuity above that 6 voxels beside the face; higher is better", statistic(&S::contrast)},
+      {"offset", "m", "red-white-blue",
+       "how far beside the face the discontinuity is highest, along its normal",
+       [](const session::Part& part, std::size_t f) {
+         return part.statistics[f].offset_voxels * part.geometry[f].metres_along_normal;
+       }},
+      {"offset_voxels", "voxel", "red-white-blue", "the same in voxels, -8 to 8",
+       statistic(&S::offset_voxels)},
+      {"offset_score", "1", "cividis", "the discontinuity there", statistic(&S::offset_score)},
       {"area_voxels", "voxel^2", "viridis", "area in index space", shape(&G::area_voxels)},
       {"area", "m^2", "viridis", "area", shape(&G::area)},
       {"dip", "degrees", "viridis", "dip from the horizontal", shape(&G::dip)},

@@ -5,6 +5,7 @@
 namespace footwall::commands {
 
 void add_attach(console::Program& program);
+void add_attribute(console::Program& program);
 void add_batch(console::Program& program);
 void add_new(console::Program& program);
 void add_import(console::Program& program);

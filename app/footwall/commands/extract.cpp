@@ -1,8 +1,8 @@
 // footwall extract: EXTRACT-ALL on the engine, the result attached to the project; or a forecast of it; or
 // the job as a folder.
 #include <fmt/format.h>
-#include <array>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -215,9 +215,12 @@ void add_extract(console::Program& program) {
       "How faces are spread over ranks: " + names(extract::balance_rows()) + " (default none)");
   command->add_option("--voxelizer", how.engine.voxelizer,
                       "Which voxels a face cuts: " + names(extract::voxelizer_rows()) + " (default exact)");
-  command->add_option("--compute", options->compute,
-                      "Statistics, comma separated: " + names(extract::statistic_rows()) +
-                          " (default: all but voxels and lot)");
+  command->add_option(
+      "--compute", options->compute,
+      "Statistics, comma separated: " + names(extract::statistic_rows()) + " (default: count to contrast)");
+  command->add_option("--filter", how.engine.filter,
+                      "Of --compute filter: band=SHORT,LONG or sharpen=AMOUNT,LENGTH, wavelengths in voxels "
+                      "(default band=4,32)");
   command->add_option("--pillars", options->pillars,
                       "AxB: cut each rank's part into A x B pillars that lie between those of others, which "
                       "evens out crowded surveys (default 1x1)");

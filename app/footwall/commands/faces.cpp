@@ -1,11 +1,13 @@
 // footwall faces: per-face statistics of a run, as CSV or ranked.
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
 
 #include "app/footwall/commands/commands.h"
 #include "app/footwall/commands/options.h"
+#include "engine/extract/face.h"
 #include "engine/tasks/face_tables.h"
 #include "storage/base/log.h"
 #include "storage/formats/faces_csv.h"
@@ -31,8 +33,46 @@ console::Json ranked_json(const tasks::FaceTables& faces, const std::vector<task
   return rows;
 }
 
+// Contrast where the run has it; runs of earlier versions, or of other statistics, do not.
+std::string default_ranking(const tasks::FaceTables& faces) {
+  for (const formats::MeshTable& table : faces.tables) {
+    const std::vector<double>* contrast = nullptr;
+    for (const formats::FaceStatistic& statistic : table.statistics)
+      if (statistic.name == "contrast") contrast = &statistic.values;
+    if (contrast != nullptr &&
+        std::any_of(contrast->begin(), contrast->end(), [](double v) { return !std::isnan(v); }))
+      return "contrast";
+  }
+  return "discontinuity";
+}
+
+// The statistics over the distinct voxels of the faults; of runs that have them.
+console::Json fault_rows(const tasks::FaceTables& faces, const std::string& fault) {
+  console::Json rows = console::Json::array();
+  const console::Json result = console::Json::parse(faces.run->result, nullptr, false);
+  if (!result.is_object() || !result.contains("faults")) return rows;
+  for (const console::Json& row : result["faults"]) {
+    if (fault.empty() || row.value("name", "") == fault) rows.push_back(row);
+  }
+  return rows;
+}
+
+std::string faults_text(const console::Json& rows) {
+  std::string text;
+  for (const console::Json& row : rows) {
+    const auto value = [&](const char* key) {
+      return row[key].is_null() ? std::string("-") : fmt::format("{:.5g}", row[key].get<double>());
+    };
+    text += fmt::format("{}: {} distinct voxels, mean {}, variance {}, {} to {}, discontinuity {}\n",
+                        row["name"].get<std::string>(),
+                        row["count"].get<std::int64_t>() + row["nulls"].get<std::int64_t>(), value("mean"),
+                        value("variance"), value("min"), value("max"), value("discontinuity"));
+  }
+  return text;
+}
+
 std::string ranked_text(const tasks::FaceTables& faces, const std::vector<tasks::RankedFace>& ranked) {
-  const std::vector<const char*> columns{"discontinuity", "variance", "mean", "count", "dip"};
+  const std::vector<const char*> columns{"contrast", "discontinuity", "variance", "count", "dip"};
   std::string text = fmt::format("{:<16} {:<24}", "fault", "face");
   for (const char* column : columns) text += fmt::format(" {:>13}", column);
   text += "\n";
@@ -40,7 +80,9 @@ std::string ranked_text(const tasks::FaceTables& faces, const std::vector<tasks:
     const formats::MeshTable& table = faces.tables[one.table];
     text += fmt::format("{:<16} {:<24}", table.fault, table.face_ids[one.face]);
     for (const char* column : columns) {
-      const double value = tasks::values_of(table, column)[one.face];
+      const auto known = std::find_if(table.statistics.begin(), table.statistics.end(),
+                                      [&](const auto& statistic) { return statistic.name == column; });
+      const double value = known == table.statistics.end() ? extract::kUndefined : known->values[one.face];
       text += std::isnan(value) ? fmt::format(" {:>13}", "-") : fmt::format(" {:>13.5g}", value);
     }
     text += "\n";
@@ -62,7 +104,9 @@ console::Output run(const Options& options) {
   console::Output output;
   output.json = {
       {"run", faces.run->id}, {"volume", faces.run->volume}, {"count", count}, {"stale", faces.stale}};
+  output.json["faults"] = fault_rows(faces, options.fault);
   output.text = fmt::format("run {}: {} faces of volume {}\n", faces.run->id, count, faces.run->volume);
+  output.text += faults_text(output.json["faults"]);
   if (!options.csv.empty()) {
     formats::faces_csv::write(options.csv, faces.tables);
     output.json["csv"] = options.csv;
@@ -71,7 +115,7 @@ console::Output run(const Options& options) {
   const bool lowest = !options.lowest.empty() || options.highest.empty();
   const std::string& asked = lowest ? options.lowest : options.highest;
   std::string statistic = asked;
-  if (statistic.empty() && options.csv.empty()) statistic = "discontinuity";
+  if (statistic.empty() && options.csv.empty()) statistic = default_ranking(faces);
   if (!statistic.empty()) {
     const auto ranked = tasks::ranked_faces(faces, statistic, lowest, options.top);
     output.json["faces"] = ranked_json(faces, ranked);

@@ -43,6 +43,7 @@ void add_result(const console::Json& result, console::Json& output) {
   for (const char* key : {"load_deviation", "pillars", "cache_hits", "cache_voxels", "quickest_seconds"}) {
     output[key] = result.value(key, console::Json());
   }
+  output["faults"] = result.at("faults");
 }
 
 std::string result_in_words(const console::Json& result) {

@@ -130,6 +130,10 @@ TEST_F(Batch, ARerunSkipsWholePartsAndMendsTheOthers) {
     for (const auto& part : last["parts"]) EXPECT_TRUE(part["reused"]);
     EXPECT_EQ(last["checksum"], first["checksum"]);
     EXPECT_EQ(last["voxels"], first["voxels"]);
+    EXPECT_EQ(last["faults"], first["faults"]);
+    EXPECT_EQ(last["faults"].size(), 3U);
+    EXPECT_GT(last["faults"][0]["count"], 0);
+    EXPECT_TRUE(last["faults"][2]["mean"].is_null());  // a fault without faces
     for (const auto& entry : std::filesystem::directory_iterator(path / "out")) {
       EXPECT_TRUE(entry.path().extension() == ".h5" || entry.path().filename() == "result.json")
           << entry.path();

@@ -1,0 +1,9 @@
+// footwall bench quality
+#pragma once
+#include "app/footwall/console/program.h"
+
+namespace footwall::commands {
+
+void add_bench_quality(console::Program& program, CLI::App* group);
+
+}  // namespace footwall::commands

@@ -1,0 +1,32 @@
+// Makes an attribute volume on all ranks: each computes blocks of the volume, rank 0 writes them in order
+// into a volume file. The file's bytes depend on the input and the window alone, not on the number of ranks.
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "engine/comm/communicator.h"
+#include "engine/extract/discontinuity_volume.h"
+#include "storage/base/job_context.h"
+
+namespace footwall::session {
+
+// On disk as JSON: {footwall_attribute: 1, kind: "discontinuity", window: "3x3x9", volume, output, result}.
+struct AttributeJob {
+  std::filesystem::path volume;  // absolute, like the others
+  std::filesystem::path output;  // the new volume file; takes its name when it is whole
+  std::filesystem::path result;  // {ranks, seconds, checksum}, written last
+  extract::Window window;
+};
+
+// Throws kIo, kUnsupported (a path that is not UTF-8).
+void write_attribute_job(const AttributeJob& job, const std::filesystem::path& path);
+// Throws kNotFound, kFormat.
+AttributeJob read_attribute_job(const std::filesystem::path& path);
+
+// Collective; the same Error on every rank, and then no file: what reading and writing volumes throws,
+// kCancelled. Each rank holds a block of the new volume and what is needed of the old one for it; rank 0 one
+// block of every rank.
+void run_attribute(const comm::Communicator& parent, const std::filesystem::path& job_path,
+                   const JobContext& context);
+
+}  // namespace footwall::session
