@@ -8,6 +8,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "engine/extract/auto_choice.h"
 #include "engine/extract/balance/balance.h"
 #include "engine/extract/computations.h"
 #include "engine/extract/exchange/exchange.h"
@@ -183,6 +184,7 @@ struct LoadedSurvey::State {
   comm::RankGrid grid;
   comm::Communicator world;
   Blocks blocks;
+  AutoChoice automatic;
   double read_seconds = 0;  // of this rank
 };
 
@@ -211,15 +213,21 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
   comm::Communicator& world = state_->world;
   const bool with_discontinuity = asks_for(options, "discontinuity");
   const std::vector<const Computation*> whole_face = whole_face_computations(options);
-  const Choice balance = parse_choice(options.balance);
-  const Choice exchange_choice = parse_choice(options.exchange);
+  world.collectively([&] { validate(options); });
+  state_->automatic.prepare(world, options);
+  Chosen chosen;
+  Choice balance;
+  Choice exchange_choice;
   double scale = 0;
   const std::vector<int> responsible = world.collectively([&] {
-    validate(options);
     require(input.dims == state_->grid.dims(), "faces of the survey that was read");
     voxelize::apply_forced_simd();
     if (with_discontinuity) scale = discontinuity_scale(input.max_abs);
-    return balance_strategy(balance.name).run({state_->grid, input.faces, balance, {}});
+    chosen = state_->automatic.decide(state_->grid, input.faces, options);
+    balance = parse_choice(chosen.balance);
+    exchange_choice = parse_choice(chosen.exchange);
+    return balance_strategy(balance.name)
+        .run({state_->grid, input.faces, balance, {}, {}, nullptr, chosen.costs});
   });
   const double balanced = omp_get_wtime();
   const comm::Traffic before = world.traffic();
@@ -237,8 +245,10 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
     result.blobs = gathered_blobs(world, std::move(outcome.blobs), whole_face, input.faces.size());
   }
   Report& report = result.report;
-  report.exchange = exchange.name;
-  report.balance = options.balance;
+  report.exchange = chosen.exchange;
+  report.balance = chosen.balance;
+  report.reason = chosen.reason;
+  report.predicted = chosen.predicted;
   report.ranks = world.size();
   report.threads = options.threads;
   report.faces = static_cast<std::int64_t>(input.faces.size());
@@ -259,6 +269,7 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
   report.seconds.exchange = world.maximum(outcome.seconds.exchange);
   report.seconds.compute = world.maximum(outcome.seconds.compute);
   report.seconds.total = world.maximum(state_->read_seconds + omp_get_wtime() - start);
+  state_->automatic.learn(report);
   return result;
 }
 

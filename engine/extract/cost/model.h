@@ -8,8 +8,8 @@
 //   together takes the cores, whichever is longer.
 #pragma once
 #include <span>
-#include <string_view>
 
+#include "engine/extract/choice.h"
 #include "engine/extract/cost/rates.h"
 #include "engine/extract/cost/sample.h"
 #include "engine/extract/face.h"
@@ -21,13 +21,17 @@ struct Workload {
   int threads = 1;             // of each rank
   bool discontinuity = false;  // computed, too
   double whole_face = 0;       // s that each voxel of a face costs in computations that need all of them
-  double cached = 0;           // the share of remote voxels that will be there already
+  double cached = 0;           // the share of remote voxels that will be there already, 0..1
 };
 
-// Whether the model knows an exchange strategy; what it does not know `auto` does not choose.
-bool has_model(std::string_view exchange);
-// Seconds of the phases voxelize, exchange and compute, and their sum as total, for one strategy by name.
-// Throws kInternal for one without a model.
-Seconds predict(std::string_view exchange, const Workload& workload, const MachineRates& rates);
+// Whether the model knows an exchange strategy with its parameters; what it does not know `auto` does not
+// choose. Of `block` it knows the sides of kBlockSides, and 1.
+bool has_model(const Choice& exchange);
+// Seconds of the phases voxelize, exchange and compute, and their sum as total. Throws kInternal where there
+// is no model.
+Seconds predict(const Choice& exchange, const Workload& workload, const MachineRates& rates);
+
+// Bytes of a partial sum in a message of `reduce`: typical, it depends on the values.
+inline constexpr double kPartialSumBytes = 56;
 
 }  // namespace footwall::extract

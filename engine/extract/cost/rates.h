@@ -18,8 +18,9 @@ struct MachineRates {
   double fold_discontinuity = 0;  // the same with the discontinuity
   double pack = 0;                // lists a voxel, and writes or reads its value in a message
   // Of faces.
-  double face = 0;    // that a rank has at least one voxel of
-  double finish = 0;  // writes, reads, merges and ends one partial sum
+  double face = 0;     // that a rank has at least one voxel of
+  double finish = 0;   // writes, reads, merges and ends one partial sum
+  double balance = 0;  // is dealt out by a balancer
   // Of computations that need a face's voxels, of each voxel. One that is not here was not measured.
   struct WholeFace {
     std::string name;

@@ -12,7 +12,8 @@ namespace footwall::extract {
 
 struct RatesKey {
   std::string host;
-  std::string mpi;  // the library, e.g. "Open MPI v4.1.4"
+  std::string mpi;           // the library, e.g. "Open MPI v4.1.4"
+  std::string computations;  // those that were measured
   int ranks = 1;
   int cores = 1;
 };
