@@ -1,4 +1,4 @@
-// The MPI program: runs one batch job on all ranks, or checks that they work together. Exit 0 done, 1 failed, 2 wrong
+// The MPI program: runs one batch job or scripted workload on all ranks, or checks that they work together. Exit 0 done, 1 failed, 2 wrong
 // usage, 75 told to make room (SIGTERM; run it again and it goes on), 130 cancelled; a failure is printed once.
 #include <signal.h>
 #include <sys/prctl.h>
@@ -7,6 +7,8 @@
 
 #include "app/footwall-engine/batch_command.h"
 #include "app/footwall-engine/check_command.h"
+#include "app/footwall-engine/running_job.h"
+#include "app/footwall-engine/workload_command.h"
 #include "engine/comm/environment.h"
 #include "engine/session/batch.h"
 #include "engine/session/lonely_rank.h"
@@ -53,6 +55,7 @@ int run(const Communicator& world, int argc, char** argv) {
   CLI::App* check =
       app.add_subcommand("check", "tells whether the ranks work together; footwall doctor asks it");
   check->add_option("FOLDER", folder, "where they write and read a file together")->required();
+  footwall::app::WorkloadCommand workload(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -62,6 +65,8 @@ int run(const Communicator& world, int argc, char** argv) {
   }
   if (check->parsed()) {
     footwall::app::check(world, folder);
+  } else if (workload.parsed()) {
+    workload.run(world);
   } else {
     footwall::app::batch(world, job, options);
   }

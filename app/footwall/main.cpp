@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
         commands::add_history, commands::add_interpolate, commands::add_triangulate, commands::add_extract,
         commands::add_batch, commands::add_attach, commands::add_faces, commands::add_export,
         commands::add_render, commands::add_pack, commands::add_relink, commands::add_doctor,
-        commands::add_bench}) {
+        commands::add_workload, commands::add_bench}) {
     add(program);
   }
   return program.run(argc, argv);

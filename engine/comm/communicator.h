@@ -60,8 +60,13 @@ class Communicator {
   // go first, then only what is not empty, in non-blocking messages of at most 1 GiB. Collective; agrees on
   // memory before anything large is sent. Counted: 8 bytes and a message for every size, and the contents.
   std::vector<Bytes> exchange(std::vector<Bytes> outgoing);
-  // What exchange() sent so far.
+  // What was sent so far by exchange(), exchange_sizes() and Transfer (transfer.h).
   const Traffic& traffic() const { return traffic_; }
+  // Adds what was sent otherwise.
+  void count(std::int64_t bytes, std::int64_t messages) {
+    traffic_.bytes += bytes;
+    traffic_.messages += messages;
+  }
 
   // `bytes` of rank `root` everywhere. Collective.
   Bytes broadcast(Bytes bytes, int root) const;

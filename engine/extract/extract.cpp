@@ -17,6 +17,7 @@
 #include "engine/voxelize/registry.h"
 #include "engine/voxelize/simd.h"
 #include "storage/base/hash.h"
+#include "storage/base/log.h"
 
 namespace footwall::extract {
 namespace {
@@ -180,13 +181,51 @@ struct LoadedSurvey::State {
   State(const comm::Communicator& parent, const comm::RankGrid& its_grid)
       : grid(its_grid),
         world(parent, grid),
-        blocks(world.collectively([&] { return Blocks(grid, world.rank()); })) {}
+        blocks(world.collectively([&] { return Blocks(grid, world.rank()); })) {
+    world.collectively([&] {
+      cache = std::make_unique<VoxelCache>(grid, blocks);
+      sent = std::make_unique<SentRecord>(grid, world.rank());
+    });
+  }
+  void forget_cache() {
+    cache->clear();
+    sent->clear();
+  }
   comm::RankGrid grid;
   comm::Communicator world;
   Blocks blocks;
   AutoChoice automatic;
+  std::unique_ptr<VoxelCache> cache;
+  std::unique_ptr<SentRecord> sent;
+  bool told_of_the_limit = false;
   double read_seconds = 0;  // of this rank
+
+  // Runs a strategy between the cache's begin and end. After an error on all ranks none can be sure what the
+  // others have, so all forget.
+  Outcome exchange(const ExchangeStrategy& strategy, const Setup& setup);
 };
+
+Outcome LoadedSurvey::State::exchange(const ExchangeStrategy& strategy, const Setup& setup) {
+  try {
+    cache->begin_extraction();
+    sent->begin_extraction();
+    Outcome outcome = strategy.run(setup);
+    outcome.cache_hits = cache->hits();
+    sent->trim(setup.options.cache_bytes);
+    if (cache->trim(setup.options.cache_bytes) && !told_of_the_limit) {
+      told_of_the_limit = true;
+      log::info("rank " + std::to_string(world.rank()) +
+                ": one extraction alone needs more voxels of other " + "ranks than the cache's limit of " +
+                std::to_string(setup.options.cache_bytes >> 20) +
+                " MiB holds; it works, and moves them again the next time");
+    }
+    outcome.cache_voxels = cache->voxels();
+    return outcome;
+  } catch (...) {
+    forget_cache();
+    throw;
+  }
+}
 
 LoadedSurvey::LoadedSurvey(const comm::Communicator& parent, const survey::Index& dims, const ReadBox& read,
                            const JobContext& job, std::array<int, 2> pillars) {
@@ -206,6 +245,10 @@ LoadedSurvey::~LoadedSurvey() = default;
 
 const comm::RankGrid& LoadedSurvey::grid() const {
   return state_->grid;
+}
+
+void LoadedSurvey::forget_cache() {
+  state_->forget_cache();
 }
 
 Result LoadedSurvey::extract(const Input& input, const Options& options, const JobContext& job) {
@@ -233,10 +276,12 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
   const comm::Traffic before = world.traffic();
 
   // 2 voxelize, 3 exchange, 4 compute
-  const Setup setup{world,           state_->grid,       state_->blocks, input,      responsible,     options,
-                    exchange_choice, with_discontinuity, scale,          whole_face, options.threads, job};
+  const Setup setup{
+      world,           state_->grid, state_->blocks,  *state_->cache,     *state_->sent, input,
+      responsible,     options,      exchange_choice, with_discontinuity, scale,         whole_face,
+      options.threads, job};
   const ExchangeStrategy& exchange = exchange_strategy(exchange_choice.name);
-  Outcome outcome = exchange.run(setup);
+  Outcome outcome = state_->exchange(exchange, setup);
   const comm::Traffic after = world.traffic();
 
   Result result;
@@ -256,6 +301,8 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
   report.voxels = world.sum(outcome.walked);
   report.bytes_sent = world.sum(after.bytes - before.bytes);
   report.messages = world.sum(after.messages - before.messages);
+  report.cache_hits = world.sum(outcome.cache_hits);
+  report.cache_voxels = world.sum(outcome.cache_voxels);
   if (report.voxels > 0) {
     report.load_max_over_mean = static_cast<double>(world.maximum(outcome.walked)) * world.size() /
                                 static_cast<double>(report.voxels);

@@ -52,6 +52,8 @@ class LoadedSurvey {
   Result extract(const Input& input, const Options& options, const JobContext& job = {});
 
   const comm::RankGrid& grid() const;
+  // Drops the voxels of other ranks that were kept for later extractions. By convention every rank calls it.
+  void forget_cache();
 
  private:
   struct State;

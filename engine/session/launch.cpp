@@ -33,14 +33,19 @@ int threads_of(const LaunchOptions& options) {
   return options.threads > 0 ? options.threads : default_threads();
 }
 
-std::vector<std::string> with_engine(std::vector<std::string> command, const LaunchOptions& options,
-                                     const std::filesystem::path& job) {
-  command.push_back(engine_program(options).string());
-  command.insert(command.end(), {"batch", std::filesystem::absolute(job).string()});
+std::vector<std::string> batch_words(const LaunchOptions& options, const std::filesystem::path& job) {
+  std::vector<std::string> words{"batch", std::filesystem::absolute(job).string()};
   if (!options.volume.empty()) {
-    command.insert(command.end(), {"--volume", std::filesystem::absolute(options.volume).string()});
+    words.insert(words.end(), {"--volume", std::filesystem::absolute(options.volume).string()});
   }
-  if (options.threads > 0) command.insert(command.end(), {"--threads", std::to_string(options.threads)});
+  if (options.threads > 0) words.insert(words.end(), {"--threads", std::to_string(options.threads)});
+  return words;
+}
+
+std::vector<std::string> with_engine(std::vector<std::string> command, const LaunchOptions& options,
+                                     const std::vector<std::string>& words) {
+  command.push_back(engine_program(options).string());
+  command.insert(command.end(), words.begin(), words.end());
   return command;
 }
 
@@ -138,18 +143,24 @@ std::filesystem::path engine_program(const LaunchOptions& options) {
 }
 
 std::vector<std::string> launch_command(const LaunchOptions& options, const std::filesystem::path& job) {
-  return with_engine(choose_launcher(ranks_of(options), threads_of(options), {}).words, options, job);
+  return with_engine(choose_launcher(ranks_of(options), threads_of(options), {}).words, options,
+                     batch_words(options, job));
 }
 
 std::string run_engine(const LaunchOptions& options, const std::filesystem::path& job_path,
                        const JobContext& job) {
   job.check();
-  const std::filesystem::path result = output_of(job_path) / "result.json";
+  return run_engine(options, {batch_words(options, job_path), output_of(job_path) / "result.json"}, job);
+}
+
+std::string run_engine(const LaunchOptions& options, const EngineTask& task, const JobContext& job) {
+  job.check();
+  const std::filesystem::path& result = task.result;
   std::error_code ignored;
   std::filesystem::remove(result, ignored);  // an older one must not be taken for this run's
   const PrivateFolder folder(home_in_memory());
   const Launcher launcher = choose_launcher(ranks_of(options), threads_of(options), folder.path());
-  Child child(with_engine(launcher.words, options, job_path), launcher.settings);
+  Child child(with_engine(launcher.words, options, task.words), launcher.settings);
   Listener listener(job);
   Stopper stopper;
   while (child.read_lines(100, [&](const std::string& line) { listener.line(line); })) {

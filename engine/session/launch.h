@@ -1,5 +1,5 @@
-// Starts footwall-engine under a launcher for one batch job and waits for it. No MPI in here: the command
-// line and the editor use it.
+// Starts footwall-engine under a launcher for one batch job or another of its commands, and waits for it. No
+// MPI in here: the command line and the editor use it.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -37,10 +37,20 @@ class Preempted : public Error {
   explicit Preempted(const Error& error) : Error(error) {}
 };
 
-// Runs the job and returns the text of result.json (see batch.h). Progress of the ranks is reported to `job`,
+// A command of footwall-engine that leaves one file with its answer when all went well.
+struct EngineTask {
+  std::vector<std::string> words;  // the command and what follows, as {"batch", "/jobs/JOB.json"}
+  std::filesystem::path result;    // one that stands there before is removed
+};
+
+// Runs the task and returns the text of its result. Progress of the ranks is reported to `job`,
 // its cancel is passed on (the ranks get SIGUSR1, the launcher SIGTERM after 5 s, and all are killed after
 // 10 s). Blocks; the engine dies with the calling thread. Throws the engine's own Error; kCancelled;
 // Preempted; kEngine where the launcher cannot be started or the engine ended without an answer, saying how.
+// options.volume is of no meaning here.
+std::string run_engine(const LaunchOptions& options, const EngineTask& task, const JobContext& job);
+
+// The same for `batch` and a job: the text of result.json (see batch.h).
 std::string run_engine(const LaunchOptions& options, const std::filesystem::path& job_path,
                        const JobContext& job);
 

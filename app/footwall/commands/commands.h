@@ -21,6 +21,7 @@ void add_render(console::Program& program);
 void add_pack(console::Program& program);
 void add_relink(console::Program& program);
 void add_doctor(console::Program& program);
+void add_workload(console::Program& program);  // workload make, workload run
 void add_bench(console::Program& program);
 
 }  // namespace footwall::commands

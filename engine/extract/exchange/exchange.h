@@ -6,6 +6,7 @@
 
 #include "engine/comm/communicator.h"
 #include "engine/extract/blocks.h"
+#include "engine/extract/cache/voxel_cache.h"
 #include "engine/extract/choice.h"
 #include "engine/extract/computations.h"
 #include "engine/extract/extract.h"
@@ -17,6 +18,8 @@ struct Setup {
   comm::Communicator& world;
   const comm::RankGrid& grid;
   const Blocks& blocks;  // this rank's own voxels
+  VoxelCache& cache;     // other ranks' voxels, from this extraction and earlier ones
+  SentRecord& sent;      // what other ranks have of this one's
   const Input& input;
   std::span<const int> responsible;  // of every face
   const Options& options;
@@ -50,8 +53,10 @@ struct FinishedBlob {
 struct Outcome {
   std::vector<Finished> finished;  // the faces that this rank is responsible for
   std::vector<FinishedBlob> blobs;
-  std::int64_t walked = 0;  // voxels that this rank voxelized
-  Seconds seconds;          // of this rank
+  std::int64_t walked = 0;      // voxels that this rank voxelized
+  Seconds seconds;              // of this rank
+  std::int64_t cache_hits = 0;  // filled in by the caller, from Setup::cache
+  std::int64_t cache_voxels = 0;
 };
 
 // Whether the whole closed triangle lies in the survey's box.
@@ -60,6 +65,10 @@ bool inside(const survey::LatticeTriangle& triangle, const survey::Index& dims);
 // All are collective.
 Outcome exchange_reduce(const Setup& setup);
 Outcome exchange_minimum(const Setup& setup);
+Outcome exchange_block(const Setup& setup);
+Outcome exchange_bounding(const Setup& setup);
+Outcome exchange_push(const Setup& setup);
+void check_block(const Choice& choice);  // "block=B", B^3 voxels for each missing one
 
 // A strategy is one file in this folder and one row in strategies.cpp. run and check are null for one that is
 // known by name but not built.

@@ -22,9 +22,13 @@ constexpr std::array kStrategies{
     ExchangeStrategy{"minimum",
                      "the responsible rank asks the owners for the voxels that it lacks, by coordinates",
                      true, &exchange_minimum, &takes_nothing},
-    ExchangeStrategy{"block", "like minimum, with blocks of voxels around each", true, nullptr, nullptr},
-    ExchangeStrategy{"bounding", "owners send the faces' bounding volumes", true, nullptr, nullptr},
-    ExchangeStrategy{"push", "owners send the values that nobody had to ask for", true, nullptr, nullptr}};
+    ExchangeStrategy{"block", "like minimum, with a block of B^3 voxels around each: block=B, 2 if left out",
+                     true, &exchange_block, &check_block},
+    ExchangeStrategy{"bounding",
+                     "owners send all voxels in the bounding boxes of the faces, with coordinates", true,
+                     &exchange_bounding, &takes_nothing},
+    ExchangeStrategy{"push", "owners send the values that nobody had to ask for", true, &exchange_push,
+                     &takes_nothing}};
 
 }  // namespace
 

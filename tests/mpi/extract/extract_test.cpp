@@ -198,10 +198,13 @@ TEST_P(ExtractAll, LeavesOutWhatIsNotAskedFor) {
 }
 
 INSTANTIATE_TEST_SUITE_P(StrategiesAndThreads, ExtractAll,
-                         testing::Combine(testing::Values("reduce", "minimum"), testing::Values(1, 3)),
+                         testing::Combine(testing::Values("reduce", "minimum", "block=2", "block=5",
+                                                          "bounding", "push"),
+                                          testing::Values(1, 3)),
                          [](const auto& chosen) {
-                           return std::string(std::get<0>(chosen.param)) + "_threads_" +
-                                  std::to_string(std::get<1>(chosen.param));
+                           std::string name = std::get<0>(chosen.param);
+                           std::replace(name.begin(), name.end(), '=', '_');
+                           return name + "_threads_" + std::to_string(std::get<1>(chosen.param));
                          });
 
 ErrorCode code_of(const std::function<void()>& call) {
@@ -233,7 +236,7 @@ TEST(ExtractErrors, WrongNamesAreWrongUsageOnAllRanks) {
   const comm::Communicator world(MPI_COMM_WORLD);
   const Case c = random_case({4, 4, 4}, 2, 10);
   std::vector<Options> wrong(6);
-  wrong[0].exchange = "block=4";
+  wrong[0].exchange = "block=0";
   wrong[1].exchange = "guess";
   wrong[2].balance = "manhattan";
   wrong[3].voxelizer = "gpu";
