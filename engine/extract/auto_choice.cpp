@@ -308,7 +308,9 @@ Chosen AutoChoice::decide(const comm::RankGrid& grid, std::span<const Face> face
   // A few faces between two full extractions are no reason to forget what those found.
   if (!last_ || faces.size() >= kFewFaces || last_->faces < kFewFaces)
     last_ = Memory{options, count, voxels, cached_, chosen, 0};
-  return chosen;
+  Chosen fresh = chosen;
+  fresh.is_new = true;
+  return fresh;
 }
 
 bool AutoChoice::holds(const Options& options, double faces, double voxels) const {

@@ -248,6 +248,7 @@ const comm::RankGrid& LoadedSurvey::grid() const {
 }
 
 void LoadedSurvey::forget_cache() {
+  state_->automatic.forget_cached();
   state_->forget_cache();
 }
 
@@ -317,6 +318,10 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
   report.seconds.compute = world.maximum(outcome.seconds.compute);
   report.seconds.total = world.maximum(state_->read_seconds + omp_get_wtime() - start);
   state_->automatic.learn(report);
+  if (chosen.is_new && world.rank() == 0 && world.size() > 1) {
+    log::info("auto: " + report.reason);
+    log::info("it took: " + outcome_in_words(report));
+  }
   return result;
 }
 

@@ -81,6 +81,14 @@ class Totals {
     sum.exchange += group.seconds.exchange;
     sum.compute += group.seconds.compute;
     report_.exchange = group.exchange;
+    report_.balance = group.balance;
+    report_.reason = group.reason;
+    extract::Seconds& predicted = report_.predicted;
+    predicted.balance += group.predicted.balance;
+    predicted.voxelize += group.predicted.voxelize;
+    predicted.exchange += group.predicted.exchange;
+    predicted.compute += group.predicted.compute;
+    predicted.total += group.predicted.total;
     report_.bytes_sent += group.bytes_sent;
     report_.messages += group.messages;
     report_.voxels += group.voxels;
@@ -129,6 +137,13 @@ Json summary(const Job& job, const std::filesystem::path& job_path, const extrac
           {"bytes_sent", report.bytes_sent},
           {"messages", report.messages},
           {"load_max_over_mean", report.load_max_over_mean},
+          {"reason", report.reason},
+          {"predicted",
+           {{"balance", report.predicted.balance},
+            {"voxelize", report.predicted.voxelize},
+            {"exchange", report.predicted.exchange},
+            {"compute", report.predicted.compute},
+            {"total", report.predicted.total}}},
           {"checksum", to_hex(extract::checksum_of(faces, statistics))},
           {"seconds",
            {{"read", report.seconds.read},

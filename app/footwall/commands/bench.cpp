@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include "app/footwall/commands/bench_extract.h"
 #include "app/footwall/commands/commands.h"
 #include "app/footwall/commands/options.h"
 #include "engine/tasks/bench_voxelize.h"
@@ -38,6 +39,7 @@ console::Output bench_voxelize(const tasks::BenchVoxelizeOptions& options, const
 
 void add_bench(console::Program& program) {
   CLI::App* group = program.add_group("bench", "Measure, after checking the answer");
+  add_bench_extract(program, group);
   auto options = std::make_shared<tasks::BenchVoxelizeOptions>();
   CLI::App* command =
       program.add(group, "voxelize", "Voxelize the triangles of a file",

@@ -4,9 +4,9 @@
 
 #include <fstream>
 
+#include "scratch_folder.h"
 #include "storage/base/error.h"
 #include "storage/base/partial_file.h"
-#include "tests/scratch_folder.h"
 
 namespace footwall::extract {
 namespace {
@@ -79,7 +79,9 @@ TEST_F(RatesFile, ADamagedOneIsIgnored) {
     put(changed);
     const auto read = read_rates(folder_, kKey);
     // White space and the like may change without harm.
-    if (read) EXPECT_EQ(*read, some_rates()) << at;
+    if (read) {
+      EXPECT_EQ(*read, some_rates()) << at;
+    }
   }
   std::string later = whole;
   later.replace(later.find("\"footwall_rates\": 1"), 19, "\"footwall_rates\": 9");
