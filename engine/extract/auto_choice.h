@@ -26,6 +26,7 @@ struct Chosen {
   Seconds predicted;        // zeros where the model was not asked
   BalanceCosts costs = {};  // what the balancer is to weigh with
   int looked_at = 0;        // balancers that were run to see what they do
+  bool is_new = false;      // not what is remembered from an extraction before
 };
 
 // What decides, known alike on every rank.
