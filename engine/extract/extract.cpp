@@ -2,11 +2,13 @@
 
 #include <omp.h>
 
+#include "engine/extract/auto_choice.h"
 #include "engine/extract/balance/area.h"
 #include "engine/extract/loaded_survey.h"
 #include "engine/extract/probes.h"
 #include "engine/extract/registry.h"
 #include "engine/extract/report.h"
+#include "storage/base/log.h"
 
 namespace footwall::extract {
 
@@ -73,12 +75,19 @@ void LoadedSurvey::forget_cache() {
 Result LoadedSurvey::extract(const Input& input, const Options& options, const JobContext& job) {
   const double start = omp_get_wtime();
   comm::Communicator& world = state_->world;
+  world.collectively([&] { validate(options); });
+  state_->automatic.prepare(world, options);
+  Chosen chosen;
   Plan plan;
   Ran ran;
   const std::vector<int> responsible = world.collectively([&] {
-    plan = plan_of(options, input.max_abs);
+    chosen = state_->automatic.decide(state_->grid, input.faces, options);
+    Options settled = options;
+    settled.exchange = chosen.exchange;
+    settled.balance = chosen.balance;
+    plan = plan_of(settled, input.max_abs);
     require(input.dims == state_->grid.dims(), "faces of the survey that was read");
-    std::vector<int> ranks = plan.balancer->run(state_->to_balance(plan, input.faces, {}));
+    std::vector<int> ranks = plan.balancer->run(state_->to_balance(plan, input.faces, {}, chosen.costs));
     state_->gather.prepare(world, ranks, ran.faces);
     return ranks;
   });
@@ -113,11 +122,18 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
   }
   Report& report = result.report;
   fill_report(all, world.size(), report);
-  report.exchange = name_of_exchange(plan);
-  report.balance = options.balance;
+  report.exchange = chosen.exchange;
+  report.balance = chosen.balance;
+  report.reason = chosen.reason;
+  report.predicted = chosen.predicted;
   report.threads = options.threads;
   report.faces = static_cast<std::int64_t>(input.faces.size());
   report.walked_here = ran.outcome.walked;
+  state_->automatic.learn(report);
+  if (chosen.is_new && world.rank() == 0 && world.size() > 1) {
+    log::info("auto: " + report.reason);
+    log::info("it took: " + outcome_in_words(report));
+  }
   return result;
 }
 

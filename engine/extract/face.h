@@ -46,7 +46,7 @@ struct FaceStatistics {
 
 struct Options {
   std::string exchange = "auto";  // a name of exchange_rows(), perhaps with parameters: "block=2"
-  std::string balance = "none";   // a name of balance_rows(), perhaps with parameters
+  std::string balance = "auto";   // a name of balance_rows(), perhaps with parameters
   std::string voxelizer = "exact";
   // Names of computations.h; empty = those computed by default. count, mean, variance, min and max come
   // together.

@@ -1,5 +1,6 @@
 // The inside of LoadedSurvey: for the driver and for incremental extraction alone.
 #pragma once
+#include "engine/extract/auto_choice.h"
 #include "engine/extract/balance/cache_directory.h"
 #include "engine/extract/blocks.h"
 #include "engine/extract/exchange/exchange.h"
@@ -17,25 +18,28 @@ struct LoadedSurvey::State {
       : grid(its_grid),
         world(parent, grid),
         blocks(world.collectively([&] { return Blocks(grid, world.rank()); })),
-        remote(world.collectively(
-            [&] { return std::make_unique<RemoteVoxels>(grid, blocks, world.rank()); })),
+        remote(
+            world.collectively([&] { return std::make_unique<RemoteVoxels>(grid, blocks, world.rank()); })),
         directory(world.collectively([&] { return CacheDirectory(grid); })) {}
 
-  BalanceInput to_balance(const Plan& plan, std::span<const Face> faces,
-                          std::span<const int> previous) const {
+  BalanceInput to_balance(const Plan& plan, std::span<const Face> faces, std::span<const int> previous,
+                          const BalanceCosts& costs = {}) const {
     BalanceInput input{grid, faces, plan.balance, previous};
+    input.costs = costs;
     if (plan.strategy->moves_voxels) input.cache = &directory;
     return input;
   }
 
   void forget_cache() {
     remote->forget();
+    automatic.forget_cached();
     directory.clear();
   }
 
   comm::RankGrid grid;
   comm::Communicator world;
   Blocks blocks;
+  AutoChoice automatic;
   std::unique_ptr<RemoteVoxels> remote;
   CacheDirectory directory;  // which ranks have been sent what, roughly: for balancing
   Kept kept;

@@ -105,6 +105,12 @@ class Totals {
     report_.cache_voxels = group.cache_voxels;  // those kept after the last
     report_.loads.resize(group.loads.size());
     for (std::size_t rank = 0; rank < group.loads.size(); ++rank) report_.loads[rank] += group.loads[rank];
+    extract::Seconds& predicted = report_.predicted;
+    predicted.balance += group.predicted.balance;
+    predicted.voxelize += group.predicted.voxelize;
+    predicted.exchange += group.predicted.exchange;
+    predicted.compute += group.predicted.compute;
+    predicted.total += group.predicted.total;
     report_.bytes_sent += group.bytes_sent;
     report_.messages += group.messages;
     report_.voxels += group.voxels;
@@ -167,6 +173,13 @@ Json summary(const Job& job, const std::filesystem::path& job_path, const extrac
           {"pillars", job.options.pillars},
           {"cache_hits", report.cache_hits},
           {"cache_voxels", report.cache_voxels},
+          {"reason", report.reason},
+          {"predicted",
+           {{"balance", report.predicted.balance},
+            {"voxelize", report.predicted.voxelize},
+            {"exchange", report.predicted.exchange},
+            {"compute", report.predicted.compute},
+            {"total", report.predicted.total}}},
           {"checksum", to_hex(extract::checksum_of(faces, statistics))},
           {"seconds", with_total(phases(report.seconds), total_seconds)},
           {"quickest_seconds", phases(report.quickest)},

@@ -1,11 +1,12 @@
 // Runs one job on all ranks: read the job, open the volume, EXTRACT-ALL, write part files and result.json.
 //
 // result.json: {job, ranks, threads, exchange, balance, voxelizer, faces, voxels, bytes_sent, messages,
-// load_max_over_mean, checksum (16 hex digits), seconds{read,voxelize,exchange,compute,total}, volume{path,
-// checksum}, faults[{fault, name, faces, count, nulls, outside, mean, variance, min, max, discontinuity}],
-// parts[{fault, name, file, faces, reused}]}. faults[]: over the distinct voxels of each. Faults whose whole
-// part matches the job are not computed again; amounts, bytes and seconds are of what was computed, faces,
-// voxels and checksum of everything.
+// load_max_over_mean, reason and predicted{balance,voxelize,exchange,compute,total} (why `auto` chose what
+// ran, and the seconds it expected), checksum (16 hex digits), seconds{read,voxelize,exchange,compute,total},
+// volume{path, checksum}, faults[{fault, name, faces, count, nulls, outside, mean, variance, min, max,
+// discontinuity}], parts[{fault, name, file, faces, reused}]}. faults[]: over the distinct voxels of each.
+// Faults whose whole part matches the job are not computed again; amounts, bytes and seconds are of what was
+// computed, faces, voxels and checksum of everything.
 //
 // The volume is read once; faults are then taken in groups, whose parts are on disk before the next group
 // starts: a job that is stopped loses one group at the most (a twentieth of the faces, or 20,000 of them).

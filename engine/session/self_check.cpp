@@ -22,16 +22,15 @@ constexpr auto kPatience = std::chrono::seconds(60);
 }  // namespace
 
 std::string to_json(const EngineFacts& facts) {
-  return kMark +
-         Json{{"ranks", facts.ranks},
-              {"mpi_library", facts.mpi_library},
-              {"mpi_compiled", facts.mpi_compiled},
-              {"mpi_standard", facts.mpi_standard},
-              {"hdf5_compiled", facts.hdf5_compiled},
-              {"hdf5_running", facts.hdf5_running},
-              {"hdf5_trouble", facts.hdf5_trouble}}
-             .dump(-1, ' ', false, Json::error_handler_t::replace) +
-         "}";
+  Json json{{"ranks", facts.ranks},
+            {"mpi_library", facts.mpi_library},
+            {"mpi_compiled", facts.mpi_compiled},
+            {"mpi_standard", facts.mpi_standard},
+            {"hdf5_compiled", facts.hdf5_compiled},
+            {"hdf5_running", facts.hdf5_running},
+            {"hdf5_trouble", facts.hdf5_trouble}};
+  if (facts.rates) json["rates"] = extract::to_text(*facts.rates);
+  return kMark + json.dump(-1, ' ', false, Json::error_handler_t::replace) + "}";
 }
 
 EngineFacts engine_facts_from(const std::string& text) {
@@ -45,6 +44,7 @@ EngineFacts engine_facts_from(const std::string& text) {
     json.at("hdf5_compiled").get_to(facts.hdf5_compiled);
     json.at("hdf5_running").get_to(facts.hdf5_running);
     json.at("hdf5_trouble").get_to(facts.hdf5_trouble);
+    if (json.contains("rates")) facts.rates = extract::rates_from(json.at("rates").get<std::string>());
     return facts;
   } catch (const Json::exception&) {
     throw Error(ErrorCode::kEngine, "the engine's answer cannot be read: " + text,

@@ -2,9 +2,11 @@
 // together.
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/extract/cost/rates.h"
 #include "engine/session/launch.h"
 #include "storage/base/error.h"
 #include "storage/base/job_context.h"
@@ -22,6 +24,7 @@ struct EngineFacts {
   std::string mpi_standard;              // of the library, e.g. "3.1"
   std::string hdf5_compiled, hdf5_running;
   std::string hdf5_trouble;  // why parallel HDF5 does not work in the folder; empty when it does
+  std::optional<extract::MachineRates> rates;  // measured just now, and kept for `auto`
 };
 
 // Starts `footwall-engine check FOLDER` on options.ranks ranks; a launcher that has not ended after a minute

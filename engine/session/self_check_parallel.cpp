@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "engine/comm/communicator.h"
+#include "engine/extract/cost/rates_file.h"
+#include "engine/extract/machine_rates.h"
 #include "engine/session/self_check.h"
 #include "storage/volume/probe_parallel.h"
 
@@ -72,6 +74,9 @@ EngineFacts check_ranks(const comm::Communicator& world, const std::filesystem::
   } catch (const Error& error) {
     facts.hdf5_trouble = error.message();  // the same on all ranks
   }
+
+  // 4. How fast they are.
+  facts.rates = extract::measured_rates(world, extract::rates_folder());
   return facts;
 }
 

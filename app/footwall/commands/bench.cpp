@@ -1,5 +1,6 @@
 // footwall bench: figures that check their answer before they count the time.
 #include "app/footwall/commands/bench_balance.h"
+#include "app/footwall/commands/bench_extract.h"
 #include "app/footwall/commands/bench_quality.h"
 #include "app/footwall/commands/commands.h"
 
@@ -8,6 +9,7 @@ namespace footwall::commands {
 void add_bench(console::Program& program) {
   CLI::App* group = program.add_group("bench", "Measure, after checking the answer");
   add_bench_balance(program, group);
+  add_bench_extract(program, group);
   add_bench_quality(program, group);
   add_bench_voxelize(program, group);
 }

@@ -212,7 +212,7 @@ void add_extract(console::Program& program) {
       "How values reach a face's rank: " + names(extract::exchange_rows()) + " (default auto)");
   command->add_option(
       "--balance", how.engine.balance,
-      "How faces are spread over ranks: " + names(extract::balance_rows()) + " (default none)");
+      "How faces are spread over ranks: " + names(extract::balance_rows()) + " (default auto)");
   command->add_option("--voxelizer", how.engine.voxelizer,
                       "Which voxels a face cuts: " + names(extract::voxelizer_rows()) + " (default exact)");
   command->add_option(

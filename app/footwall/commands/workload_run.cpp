@@ -115,7 +115,7 @@ void add_workload_run(console::Program& program, CLI::App* group) {
       "How values reach a face's rank: " + names(extract::exchange_rows()) + " (default auto)");
   command->add_option(
       "--balance", engine.balance,
-      "How faces are spread over ranks: " + names(extract::balance_rows()) + " (default none)");
+      "How faces are spread over ranks: " + names(extract::balance_rows()) + " (default auto)");
   command->add_option("--voxelizer", engine.voxelizer,
                       "Which voxels a face cuts: " + names(extract::voxelizer_rows()) + " (default exact)");
   command->add_option("--compute", options->compute,

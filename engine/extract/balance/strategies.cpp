@@ -13,6 +13,10 @@ namespace footwall::extract {
 namespace {
 
 constexpr std::array kStrategies{
+    // Run by itself, where nothing is known of the machine, it leaves the faces where they are; an extraction
+    // asks auto_choice.h first and never runs it.
+    BalanceStrategy{"auto", "by the cost model and what this machine was measured to do", &balance_none,
+                    &check_none},
     BalanceStrategy{"none", "the rank of a face's centroid is responsible for it", &balance_none,
                     &check_none},
     BalanceStrategy{"minimal", "moves as few voxels as an even load needs, where that pays", &balance_minimal,

@@ -7,7 +7,7 @@
 namespace footwall::extract {
 namespace {
 
-// Partial sums always move less than voxels do, and all statistics there are can be folded.
+// What runs where nothing is known of the machine; an extraction asks auto_choice.h first.
 constexpr std::string_view kAuto = "reduce";
 
 void takes_nothing(const Choice& choice) {
@@ -15,7 +15,7 @@ void takes_nothing(const Choice& choice) {
 }
 
 constexpr std::array kStrategies{
-    ExchangeStrategy{"auto", "the fastest that the computations allow; at present reduce", false,
+    ExchangeStrategy{"auto", "by the cost model and what this machine was measured to do", false,
                      &exchange_reduce, &takes_nothing},
     ExchangeStrategy{"reduce", "owners fold their own voxels into exact partial sums; no voxel moves", false,
                      &exchange_reduce, &takes_nothing},

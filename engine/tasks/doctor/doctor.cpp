@@ -9,13 +9,14 @@
 #include "engine/tasks/doctor/folder.h"
 #include "engine/tasks/doctor/machine.h"
 #include "engine/tasks/doctor/opengl.h"
+#include "engine/tasks/doctor/recommendation.h"
 #include "storage/base/error.h"
 
 namespace footwall::tasks {
 namespace {
 
 // For progress only.
-constexpr int kMachineRows = 12;
+constexpr int kMachineRows = 13;
 constexpr int kFolderRows = 12;
 
 }  // namespace
@@ -31,7 +32,9 @@ std::vector<Finding> check_machine(const std::filesystem::path& folder, const se
         place.emplace(session::temporary_home());
         return finding;
       })) {
-    check_engine_rows(checkup, launch, place->path());
+    const auto facts = check_engine_rows(checkup, launch, place->path());
+    if (facts && facts->rates)
+      checkup.run("ranks and threads", [&] { return recommend_shape(*facts->rates); });
   }
   checkup.run("shared memory", [] { return check_shared_memory(); });
   checkup.run("disk space", [&] { return check_space(folder); });

@@ -9,7 +9,8 @@
 
 namespace footwall::tasks {
 
-// The machine: cores, memory, the engine on two ranks under its launcher, shared memory, temporary files, the
+// The machine: cores, memory, the engine on two ranks under its launcher, how many ranks
+// and threads to use, shared memory, temporary files, the
 // disk of `folder`, SQLite, text, OpenGL. Throws kCancelled only: what goes wrong is a finding.
 std::vector<Finding> check_machine(const std::filesystem::path& folder, const session::LaunchOptions& launch,
                                    const JobContext& job);

@@ -53,8 +53,8 @@ Finding hdf5_finding(const session::EngineFacts& facts) {
   return ok(fmt::format("HDF5 {}: the ranks wrote one file together and read it back", facts.hdf5_running));
 }
 
-void check_engine_rows(Checkup& checkup, const session::LaunchOptions& launch,
-                       const std::filesystem::path& folder) {
+std::optional<session::EngineFacts> check_engine_rows(Checkup& checkup, const session::LaunchOptions& launch,
+                                                      const std::filesystem::path& folder) {
   session::LaunchOptions two = launch;
   two.ranks = kRanks;
   two.threads = 1;
@@ -65,9 +65,10 @@ void check_engine_rows(Checkup& checkup, const session::LaunchOptions& launch,
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     return ranks_finding(facts, kRanks, passed.count());
   });
-  if (!started) return;
+  if (!started) return std::nullopt;
   checkup.run("MPI library", [&] { return mpi_finding(facts); });
   checkup.run("parallel HDF5", [&] { return hdf5_finding(facts); });
+  return facts;
 }
 
 }  // namespace footwall::tasks
