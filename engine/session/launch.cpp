@@ -167,13 +167,14 @@ std::string run_engine(const LaunchOptions& options, const EngineTask& task, con
     if (job.cancelled()) stopper.step(child);
   }
   const int status = child.wait();
+  // A cancel may arrive when the result has just been written, or the launcher may hold it back until the
+  // ranks are done; who was told "cancelled" must not find a result.
+  if (job.cancelled()) std::filesystem::remove(result, ignored);
+  job.check();
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
     if (std::filesystem::exists(result)) return read_whole_file(result, kResultLimit);
     throw Error(ErrorCode::kEngine, "the engine ended without a result", listener.last_words());
   }
-  // A cancel may arrive when the result has just been written; who was told "cancelled" must not find it.
-  if (job.cancelled()) std::filesystem::remove(result, ignored);
-  job.check();
   // srun and mpirun end with the status of the ranks; one that was told before it could listen was killed by
   // it.
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
