@@ -77,6 +77,8 @@ MachineRates measure(const comm::Communicator& world, int cores) {
                                      &MachineRates::face, &MachineRates::finish, &MachineRates::balance})
     rates.*rate = world.maximum(rates.*rate);
   for (MachineRates::WholeFace& each : rates.whole_face) each.voxel = world.maximum(each.voxel);
+  std::sort(rates.whole_face.begin(), rates.whole_face.end(),
+            [](const auto& a, const auto& b) { return a.name < b.name; });  // as they are kept
   const comm::LinkRates links = comm::measure_links(world, kLinkSeconds);
   rates.alpha = links.alpha;
   rates.overhead = links.overhead;

@@ -47,7 +47,7 @@ class Extract(FootwallTest):
         for key in ("run", "volume", "faces", "voxels", "ranks", "threads", "exchange", "balance", "seconds", "bytes_sent",
                     "messages", "load_max_over_mean", "checksum"):
             self.assertIn(key, run)
-        self.assertEqual(set(run["seconds"]), {"read", "voxelize", "exchange", "compute", "total"})
+        self.assertEqual(set(run["seconds"]), {"read", "balance", "voxelize", "exchange", "compute", "total"})
         self.assertNotIn("auto", (run["exchange"], run["balance"]))
         self.assertGreater(run["bytes_sent"], 0)
 

@@ -87,7 +87,7 @@ class FaceVoxels(FootwallTest):
         self.footwall("extract", self.project, "--compute", "lot", "--snr", 30)
         wanted = self.stored()
         self.footwall("extract", self.project, "--compute", "lot", "--snr", 30, "--write-job", "job")
-        self.footwall("batch", "job", "--ranks", 2)
+        self.footwall("batch", "job/JOB.json", "--ranks", 2)
         self.footwall("attach", self.project, "job")
         self.assertEqual(self.stored(), wanted)
 

@@ -135,7 +135,7 @@ TEST(ExtractErrors, WrongNamesAreWrongUsageOnAllRanks) {
   wrong[1].exchange = "guess";
   wrong[2].balance = "sideways";
   wrong[3].voxelizer = "gpu";
-  wrong[4].compute = {"lot"};
+  wrong[4].compute = {"sideways"};
   wrong[5].threads = 0;
   for (const Options& options : wrong) {
     EXPECT_EQ(code_of([&] { extract_all(world, c.input(), options, c.reader()); }), ErrorCode::kUsage);

@@ -78,12 +78,16 @@ TEST(FaceFilter, AConstantHasNoBandAndIsNotSharpenedAlsoAtTheEdgeAndBesideNulls)
     const std::vector<float> out = face(filter, five);
     for (std::size_t n = 0; n < out.size(); ++n) {
       ASSERT_EQ(std::isnan(out[n]), std::isnan(face.values()[n]));
-      if (!std::isnan(out[n])) ASSERT_NEAR(out[n], 0, 5e-6);
+      if (!std::isnan(out[n])) {
+        ASSERT_NEAR(out[n], 0, 5e-6);
+      }
     }
   }
   const std::vector<float> sharp = face("sharpen=2,8", five);
   for (const float value : sharp) {
-    if (!std::isnan(value)) ASSERT_NEAR(value, 5, 5e-6);
+    if (!std::isnan(value)) {
+      ASSERT_NEAR(value, 5, 5e-6);
+    }
   }
 }
 

@@ -23,7 +23,7 @@ TEST(Run, HandsEveryOptionToTheEngine) {
   const std::vector<std::string> expected{"workload",     "/scripts/a.fww",
                                           "--result",     "/tmp/r.json",
                                           "--exchange",   "minimum",
-                                          "--balance",    "none",
+                                          "--balance",    "auto",
                                           "--voxelizer",  "exact",
                                           "--compute",    "mean,variance",
                                           "--threads",    "3",
