@@ -15,7 +15,8 @@ using Json = nlohmann::ordered_json;
 struct Output {
   Json json;
   std::string text;
-  int status = 0;  // exit status: 1 where the answer is a "no" (not an error), 75 where it goes on when run again
+  int status =
+      0;  // exit status: 1 where the answer is a "no" (not an error), 75 where it goes on when run again
 };
 
 class Console {
