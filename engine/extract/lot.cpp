@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::string_view kLot = "lot";
 constexpr std::string_view kVoxels = "voxels";
+constexpr std::string_view kFilter = "filter";  // laid out as kVoxels, see face_filter.h
 
 // The angles along a row and down the columns of a face.
 lapped::Coding along_samples(const LotCoding& lot, const FaceRows& rows) {
@@ -156,7 +157,7 @@ void columns_of(const FaceRows& rows, lapped::Columns& columns) {
 }
 
 bool holds_voxels(std::string_view computation) {
-  return computation == kLot || computation == kVoxels;
+  return computation == kLot || computation == kVoxels || computation == kFilter;
 }
 
 VoxelReader::VoxelReader(std::string_view computation) : coded_(computation == kLot) {

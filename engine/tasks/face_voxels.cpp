@@ -47,14 +47,14 @@ Parameters parameters_of(const project::FaceVoxels& kept, std::int64_t run) {
   }
 }
 
-// The one that is exact, if there is a choice.
+// What a run has of a fault: the exact values before coded ones, these before filtered ones.
 const project::FaceVoxels* best_of(const std::vector<project::FaceVoxels>& all) {
-  const project::FaceVoxels* best = nullptr;
-  for (const project::FaceVoxels& each : all) {
-    if (!extract::holds_voxels(each.codec)) continue;
-    if (best == nullptr || each.codec == "voxels") best = &each;
+  for (const char* codec : {"voxels", "lot", "filter"}) {
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const project::FaceVoxels& each) { return each.codec == codec; });
+    if (found != all.end()) return &*found;
   }
-  return best;
+  return nullptr;
 }
 
 void read_fault(const project::FaultRun& run, const std::string& fault, const project::FaceVoxels& kept,

@@ -10,7 +10,7 @@ namespace footwall::commands {
 void ExportFaceVoxels::add_to(CLI::App& command) {
   command.add_option(
       "--face-voxels", file,
-      "The voxels of each face as a table, of a run that computed lot or voxels (z positive down)");
+      "The voxels of each face as a table, of a run that computed voxels, lot or filter (z positive down)");
 }
 
 void ExportFaceVoxels::run(const project::Project& project, const ExportChoice& choice,

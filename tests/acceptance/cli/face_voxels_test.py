@@ -83,6 +83,16 @@ class FaceVoxels(FootwallTest):
                           )
             self.assertEqual(self.stored(), wanted, path)
 
+    def test_filtered_values_come_out_alike(self):
+        self.footwall("extract", self.project, "--compute", "voxels")
+        _, plain = self.exported()
+        self.footwall("extract", self.project, "--compute", "filter", "--filter", "sharpen=1,8")
+        answer, filtered = self.exported()
+        self.assertEqual(answer["codec"], "filter")
+        places = ("fault", "face", "i", "j", "k")
+        self.assertEqual([[row[p] for p in places] for row in plain], [[row[p] for p in places] for row in filtered])
+        self.assertNotEqual([row["value"] for row in plain], [row["value"] for row in filtered])
+
     def test_a_job_elsewhere_brings_them_too(self):
         self.footwall("extract", self.project, "--compute", "lot", "--snr", 30)
         wanted = self.stored()
