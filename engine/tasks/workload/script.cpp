@@ -193,19 +193,19 @@ void put(const Operation& operation, Text& text) {
 }  // namespace
 
 void add_counts(const WorkloadRepeat& repeat, OperationCounts& counts) {
-  std::array<std::int64_t, std::variant_size_v<Operation>> kinds{};
+  const auto count = [&](const Operation& operation) {
+    counts.create_mesh += std::holds_alternative<mesh::CreateMesh>(operation);
+    counts.destroy_mesh += std::holds_alternative<mesh::DestroyMesh>(operation);
+    counts.add_face += std::holds_alternative<mesh::AddFace>(operation);
+    counts.remove_faces += std::holds_alternative<mesh::RemoveFaces>(operation);
+    counts.remove_face += std::holds_alternative<mesh::RemoveFace>(operation);
+    counts.move_vertex += std::holds_alternative<mesh::MoveVertex>(operation);
+    counts.split_edge += std::holds_alternative<mesh::SplitEdge>(operation);
+  };
   for (const WorkloadStep& step : repeat.steps) {
-    for (const Operation& operation : step.operations) ++kinds[operation.index()];
+    std::for_each(step.operations.begin(), step.operations.end(), count);
     counts.extract_all += step.extract;
   }
-  const auto of_kind = [&](const Operation& kind) { return kinds[kind.index()]; };
-  counts.create_mesh += of_kind(mesh::CreateMesh{});
-  counts.destroy_mesh += of_kind(mesh::DestroyMesh{});
-  counts.add_face += of_kind(mesh::AddFace{});
-  counts.remove_faces += of_kind(mesh::RemoveFaces{});
-  counts.remove_face += of_kind(mesh::RemoveFace{});
-  counts.move_vertex += of_kind(mesh::MoveVertex{});
-  counts.split_edge += of_kind(mesh::SplitEdge{});
 }
 
 OperationCounts counts_of(const Workload& workload) {
