@@ -8,6 +8,20 @@
 
 namespace footwall::extract {
 
+// visit(survey::Index) for every voxel of a row: by ascending column, then w.
+template <typename Visit>
+void for_each_voxel(const voxelize::Row& row, Visit&& visit) {
+  survey::Index voxel{};
+  voxel[static_cast<std::size_t>(row.v_axis)] = row.v;
+  for (std::size_t c = 0; c < row.lo.size(); ++c) {
+    voxel[static_cast<std::size_t>(row.u_axis)] = row.u0 + static_cast<std::int64_t>(c);
+    for (std::int64_t w = row.lo[c]; w <= row.hi[c]; ++w) {
+      voxel[static_cast<std::size_t>(row.w_axis)] = w;
+      visit(voxel);
+    }
+  }
+}
+
 class FaceRows final : public voxelize::RowSink {
  public:
   void row(const voxelize::Row& row) override;
@@ -22,18 +36,7 @@ class FaceRows final : public voxelize::RowSink {
   // visit(survey::Index) for every voxel in canonical order: rows, then columns, then w ascending.
   template <typename Visit>
   void for_each(Visit&& visit) const {
-    for (std::size_t n = 0; n < rows(); ++n) {
-      const voxelize::Row row = at(n);
-      survey::Index voxel{};
-      voxel[static_cast<std::size_t>(row.v_axis)] = row.v;
-      for (std::size_t c = 0; c < row.lo.size(); ++c) {
-        voxel[static_cast<std::size_t>(row.u_axis)] = row.u0 + static_cast<std::int64_t>(c);
-        for (std::int64_t w = row.lo[c]; w <= row.hi[c]; ++w) {
-          voxel[static_cast<std::size_t>(row.w_axis)] = w;
-          visit(voxel);
-        }
-      }
-    }
+    for (std::size_t n = 0; n < rows(); ++n) for_each_voxel(at(n), visit);
   }
 
  private:

@@ -2,30 +2,18 @@
 
 #include <numeric>
 
-#include "engine/session/launcher.h"
 #include "engine/session/private_folder.h"
 #include "engine/tasks/attach.h"
+#include "engine/tasks/job_home.h"
 
 namespace footwall::tasks {
-namespace {
-
-namespace fs = std::filesystem;
-
-// Where all ranks see the job: in an allocation they may be on other hosts, which share the project's folder
-// rather than this host's temporary one.
-fs::path home_of_job(const project::Project& project) {
-  if (session::current_allocation().slurm) return fs::absolute(project.path()).parent_path();
-  return session::temporary_home();
-}
-
-}  // namespace
 
 Extracted extract_run(project::Project& project, const ExtractOptions& options, const JobContext& context) {
   JobOfProject made = job_of_project(project, options, FreshMeshes::kStored, context.part(0, 0.05));
   session::Job& job = made.job;
   const session::PrivateFolder folder(home_of_job(project));
   job.output = folder.path() / "parts";
-  const fs::path job_file = folder.path() / "JOB.json";
+  const std::filesystem::path job_file = folder.path() / "JOB.json";
   session::write_job(job, job_file);
 
   Extracted done;

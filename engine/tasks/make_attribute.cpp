@@ -3,23 +3,12 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/session/attribute.h"
-#include "engine/session/launcher.h"
 #include "engine/session/private_folder.h"
 #include "engine/tasks/add_volume.h"
+#include "engine/tasks/job_home.h"
 #include "engine/tasks/open_volume.h"
 
 namespace footwall::tasks {
-namespace {
-
-namespace fs = std::filesystem;
-
-// Where all ranks see the job, as in extract_run.cpp.
-fs::path home_of_job(const project::Project& project) {
-  if (session::current_allocation().slurm) return fs::absolute(project.path()).parent_path();
-  return session::temporary_home();
-}
-
-}  // namespace
 
 MadeAttribute make_attribute(project::Project& project, const AttributeOptions& options,
                              const JobContext& context) {
@@ -28,11 +17,11 @@ MadeAttribute make_attribute(project::Project& project, const AttributeOptions& 
   check_free_name(project, name);
   const session::PrivateFolder folder(home_of_job(project));
   session::AttributeJob job;
-  job.volume = fs::absolute(project.volume_path(of));
-  job.output = fs::absolute(free_volume_path(project, name));
+  job.volume = std::filesystem::absolute(project.volume_path(of));
+  job.output = std::filesystem::absolute(free_volume_path(project, name));
   job.result = folder.path() / "result.json";
   job.window = options.window;
-  const fs::path job_file = folder.path() / "ATTRIBUTE.json";
+  const std::filesystem::path job_file = folder.path() / "ATTRIBUTE.json";
   session::write_attribute_job(job, job_file);
   try {
     const std::string result = session::run_engine(
@@ -42,7 +31,7 @@ MadeAttribute make_attribute(project::Project& project, const AttributeOptions& 
             json.at("seconds").get<double>()};
   } catch (...) {
     std::error_code ignored;
-    fs::remove(job.output, ignored);  // not listed, so not kept
+    std::filesystem::remove(job.output, ignored);  // not listed, so not kept
     throw;
   }
 }

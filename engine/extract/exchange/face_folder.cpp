@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/extract/face_rows.h"
 #include "storage/base/error.h"
 
 namespace footwall::extract {
@@ -42,20 +43,6 @@ void for_each_run(const voxelize::Row& row, std::span<const survey::Box> boxes, 
     }
     visit(box, columns_of(row, first, last - first));
     first = last;
-  }
-}
-
-// visit(survey::Index) for every voxel of a row in order.
-template <typename Visit>
-void for_each_voxel(const voxelize::Row& row, Visit&& visit) {
-  survey::Index voxel{};
-  voxel[static_cast<std::size_t>(row.v_axis)] = row.v;
-  for (std::size_t c = 0; c < row.lo.size(); ++c) {
-    voxel[static_cast<std::size_t>(row.u_axis)] = row.u0 + static_cast<std::int64_t>(c);
-    for (std::int64_t w = row.lo[c]; w <= row.hi[c]; ++w) {
-      voxel[static_cast<std::size_t>(row.w_axis)] = w;
-      visit(voxel);
-    }
   }
 }
 
