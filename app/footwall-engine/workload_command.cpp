@@ -35,6 +35,7 @@ WorkloadCommand::WorkloadCommand(CLI::App& app)
   command_->add_option("--snr", options.snr, "dB");
   command_->add_option("--seed", run_.seed, "of the voxels");
   command_->add_flag("--keep-cache", run_.keep_cache);
+  command_->add_flag("--phases-apart", options.phases_apart);
 }
 
 void WorkloadCommand::run(const comm::Communicator& world) {

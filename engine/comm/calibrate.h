@@ -9,14 +9,16 @@ namespace footwall::comm {
 struct LinkRates {
   double alpha = 0;     // s from an empty message's start on one rank to its end on another
   double overhead = 0;  // s that each further message of a burst adds
-  double byte = 0;      // s per byte, all pairs of ranks at once
+  double byte = 0;      // s per byte, both ways and all pairs of ranks at once
   friend bool operator==(const LinkRates&, const LinkRates&) = default;
 };
 
-// Ping-pong between ranks half a world apart, all pairs at once, and bursts of small messages from every rank
-// to several partners; medians, and of them those of the slowest rank. The same on every rank; positive, but
-// zeros for one rank, which sends nothing. Takes about `seconds`, and longer only where one round takes
-// longer. Collective; throws kEngine.
+// Messages both ways between ranks half a world apart, all pairs at once, and bursts of small messages from
+// every rank to several partners. Before each, every rank looks at other memory and meets the others: so is
+// it in an extraction, whose messages come between computations, and there a message costs tens of times what
+// it costs in a tight loop of them. Medians over rounds of the slowest rank. The same on every rank;
+// positive, but zeros for one rank, which sends nothing. Takes about `seconds`, and longer only where five
+// rounds take longer. Collective; throws kEngine.
 LinkRates measure_links(const Communicator& world, double seconds);
 
 }  // namespace footwall::comm

@@ -76,6 +76,11 @@ class Communicator {
   // and no message but those named; an empty one is sent, too. Partners other than this rank, each once. No
   // agreement: what can fail has to be done before, and a rank whose work failed still sends something.
   void exchange_known(std::span<const KnownOutgoing> outgoing, std::span<KnownIncoming> incoming);
+  // Its two halves, for a rank that has something else to do meanwhile; one at a time. The memory of all
+  // messages must stay as it is between them.
+  void begin_known(std::span<const KnownOutgoing> outgoing, std::span<const KnownIncoming> incoming);
+  void progress_known();  // lets MPI work; only the thread that called MPI_Init may
+  void end_known(std::span<KnownIncoming> incoming);
   // What was sent so far by these, exchange_sizes() and Transfer (transfer.h).
   const Traffic& traffic() const { return traffic_; }
   // Adds what was sent otherwise.

@@ -21,7 +21,13 @@ int part_of(std::size_t size, std::size_t piece) {
 
 void Communicator::exchange_known(std::span<const KnownOutgoing> outgoing,
                                   std::span<KnownIncoming> incoming) {
-  requests_.clear();
+  begin_known(outgoing, incoming);
+  end_known(incoming);
+}
+
+void Communicator::begin_known(std::span<const KnownOutgoing> outgoing,
+                               std::span<const KnownIncoming> incoming) {
+  require(requests_.empty(), "one exchange of known messages at a time");
   for (const KnownIncoming& from : incoming) {
     for (std::size_t piece = 0; piece < pieces_of(from.room.size()); ++piece) {
       check(MPI_Irecv(from.room.data() + piece * kPiece, part_of(from.room.size(), piece), MPI_BYTE,
@@ -29,7 +35,6 @@ void Communicator::exchange_known(std::span<const KnownOutgoing> outgoing,
             "MPI_Irecv");
     }
   }
-  const std::size_t receives = requests_.size();
   for (const KnownOutgoing& to : outgoing) {
     require(to.rank != rank_ && to.bytes.size() <= to.most, "a message to another rank that fits");
     for (std::size_t piece = 0; piece < pieces_of(to.most); ++piece) {
@@ -41,6 +46,16 @@ void Communicator::exchange_known(std::span<const KnownOutgoing> outgoing,
       traffic_.bytes += count;
     }
   }
+}
+
+void Communicator::progress_known() {
+  if (requests_.empty()) return;
+  // Completes nothing, so that end_known() finds every request and its status.
+  int done = 0;
+  check(MPI_Request_get_status(requests_.front(), &done, MPI_STATUS_IGNORE), "MPI_Request_get_status");
+}
+
+void Communicator::end_known(std::span<KnownIncoming> incoming) {
   statuses_.resize(requests_.size());
   check(MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), statuses_.data()), "MPI_Waitall");
   std::size_t next = 0;
@@ -52,7 +67,8 @@ void Communicator::exchange_known(std::span<const KnownOutgoing> outgoing,
       from.received += static_cast<std::size_t>(count);
     }
   }
-  require(next == receives, "every piece looked at");
+  require(next <= requests_.size(), "the messages that were begun");
+  requests_.clear();
 }
 
 }  // namespace footwall::comm

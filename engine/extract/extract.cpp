@@ -75,8 +75,11 @@ void LoadedSurvey::forget_cache() {
 Result LoadedSurvey::extract(const Input& input, const Options& options, const JobContext& job) {
   const double start = omp_get_wtime();
   comm::Communicator& world = state_->world;
-  world.collectively([&] { validate(options); });
-  state_->automatic.prepare(world, options);
+  if (state_->validated != options) {
+    world.collectively([&] { validate(options); });
+    state_->automatic.prepare(world, options);
+    state_->validated = options;
+  }
   Chosen chosen;
   Plan plan;
   Ran ran;

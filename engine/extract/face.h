@@ -57,6 +57,9 @@ struct Options {
   double snr = 0;                        // dB, for `lot`; 0 = not given
   std::string filter = "band=4,32";      // of `filter`, see face_filter.h
   std::string lot_order = "2d";          // of `lot`, see lot.h
+  // For measuring: ranks wait for the slowest before messages that all take part in, and the waiting is told
+  // apart from the exchange. Changes no result.
+  bool phases_apart = false;
   friend bool operator==(const Options&, const Options&) = default;
 };
 
@@ -65,8 +68,9 @@ struct Seconds {
   double read = 0;
   double balance = 0;   // who is responsible for what
   double voxelize = 0;  // voxelizing and, with `reduce`, folding on the way
-  double exchange = 0;
+  double exchange = 0;  // messages that nothing is done beside, and waiting for slower ranks on the way
   double compute = 0;
+  double wait = 0;  // for slower ranks, where Options::phases_apart tells it from the rest; else 0
   double total = 0;
 };
 

@@ -1,22 +1,23 @@
 #include "engine/extract/face_order.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numeric>
-#include <utility>
+
+#include "storage/base/error.h"
 
 namespace footwall::extract {
 namespace {
 
-// The lowest 21 bits, two zeros behind each.
-std::uint64_t spread(std::uint64_t x) {
-  x &= 0x1fffff;
-  x = (x | (x << 32)) & 0x001f00000000ffffu;
-  x = (x | (x << 16)) & 0x001f0000ff0000ffu;
-  x = (x | (x << 8)) & 0x100f00f00f00f00fu;
-  x = (x | (x << 4)) & 0x10c30c30c30c30c3u;
-  x = (x | (x << 2)) & 0x1249249249249249u;
-  return x;
+// Of a cell's number on an axis. More cells than a cache holds counters for would cost more than they bring.
+constexpr int kMostBits = 6;
+
+// The lowest six bits, two zeros behind each.
+std::uint32_t spread(std::uint32_t x) {
+  x = (x | (x << 8)) & 0x0300f00fu;
+  x = (x | (x << 4)) & 0x030c30c3u;
+  return (x | (x << 2)) & 0x09249249u;
 }
 
 // Three times the centroid.
@@ -32,47 +33,46 @@ std::array<std::int64_t, 3> place_of(const Face& face) {
 
 }  // namespace
 
-std::vector<std::int64_t> ordered_by_place(std::span<const Face> faces, std::span<const std::int64_t> which) {
+void FaceOrder::of(std::span<const Face> faces) {
+  require(faces.size() < std::numeric_limits<std::uint32_t>::max(), "faces that have numbers of 32 bits");
+  order_.resize(faces.size());
+  if (faces.size() < kFewFaces) {
+    std::iota(order_.begin(), order_.end(), 0u);
+    return;
+  }
   std::array<std::int64_t, 3> least;
   least.fill(std::numeric_limits<std::int64_t>::max());
   std::array<std::int64_t, 3> most;
   most.fill(std::numeric_limits<std::int64_t>::min());
-  for (const std::int64_t n : which) {
-    const auto place = place_of(faces[static_cast<std::size_t>(n)]);
+  for (const Face& face : faces) {
+    const auto place = place_of(face);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       least[axis] = std::min(least[axis], place[axis]);
       most[axis] = std::max(most[axis], place[axis]);
     }
   }
-  // One scale for all axes, so that the curve's cells are cubes.
-  std::int64_t extent = 0;
-  for (std::size_t axis = 0; axis < 3 && !which.empty(); ++axis)
-    extent = std::max(extent, most[axis] - least[axis]);
-  int shift = 0;
-  while ((extent >> shift) >= (std::int64_t{1} << 21)) ++shift;
+  int bits = 1;
+  while (bits < kMostBits && (std::size_t{1} << (3 * (bits + 1))) <= 2 * faces.size()) ++bits;
+  std::int64_t extent = 0;  // one for all axes, so that the cells are cubes
+  for (std::size_t axis = 0; axis < 3; ++axis) extent = std::max(extent, most[axis] - least[axis]);
+  const double cells =
+      static_cast<double>((1 << bits) - 1) / static_cast<double>(std::max<std::int64_t>(1, extent));
 
-  std::vector<std::pair<std::uint64_t, std::int64_t>> keys;
-  keys.reserve(which.size());
-  for (const std::int64_t n : which) {
-    const auto place = place_of(faces[static_cast<std::size_t>(n)]);
-    std::uint64_t key = 0;
+  cell_of_face_.resize(faces.size());
+  next_of_cell_.assign((std::size_t{1} << (3 * bits)) + 1, 0);
+  for (std::size_t n = 0; n < faces.size(); ++n) {
+    const auto place = place_of(faces[n]);
+    std::uint32_t cell = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto cell = static_cast<std::uint64_t>((place[axis] - least[axis]) >> shift);
-      key |= spread(cell) << (2 - axis);
+      const auto at = static_cast<std::uint32_t>(static_cast<double>(place[axis] - least[axis]) * cells);
+      cell |= spread(at) << (2 - axis);
     }
-    keys.emplace_back(key, n);
+    cell_of_face_[n] = cell;
+    ++next_of_cell_[cell + 1];
   }
-  std::sort(keys.begin(), keys.end());
-  std::vector<std::int64_t> order;
-  order.reserve(keys.size());
-  for (const auto& [key, n] : keys) order.push_back(n);
-  return order;
-}
-
-std::vector<std::int64_t> ordered_by_place(std::span<const Face> faces) {
-  std::vector<std::int64_t> all(faces.size());
-  std::iota(all.begin(), all.end(), std::int64_t{0});
-  return ordered_by_place(faces, all);
+  std::partial_sum(next_of_cell_.begin(), next_of_cell_.end(), next_of_cell_.begin());
+  for (std::size_t n = 0; n < faces.size(); ++n)
+    order_[next_of_cell_[cell_of_face_[n]]++] = static_cast<std::uint32_t>(n);
 }
 
 }  // namespace footwall::extract

@@ -9,10 +9,22 @@
 
 namespace footwall::extract {
 
-// A permutation of 0 .. faces.size() - 1 along a Morton curve through the centroids; ties by number. Which
-// order is taken changes no result, only the time. O(n log n), a few ms for 10^5 faces.
-std::vector<std::int64_t> ordered_by_place(std::span<const Face> faces);
-// The same for those of the faces that are listed: a permutation of `which`.
-std::vector<std::int64_t> ordered_by_place(std::span<const Face> faces, std::span<const std::int64_t> which);
+// A permutation of the numbers of faces; its memory is used again.
+class FaceOrder {
+ public:
+  // Cubic cells that hold about a face each, along a Morton curve; faces of one cell by number. Fewer than
+  // kFewFaces stay as they are. Which order is taken changes no result, only the time. O(faces); throws
+  // std::bad_alloc.
+  void of(std::span<const Face> faces);
+  static constexpr std::size_t kFewFaces = 256;
+
+  std::size_t size() const { return order_.size(); }
+  std::size_t operator[](std::size_t place) const { return order_[place]; }
+
+ private:
+  std::vector<std::uint32_t> cell_of_face_;
+  std::vector<std::uint32_t> next_of_cell_;
+  std::vector<std::uint32_t> order_;
+};
 
 }  // namespace footwall::extract

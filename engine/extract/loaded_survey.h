@@ -39,6 +39,7 @@ struct LoadedSurvey::State {
   comm::RankGrid grid;
   comm::Communicator world;
   Blocks blocks;
+  std::optional<Options> validated;  // the last that were found good, for which `automatic` is prepared
   AutoChoice automatic;
   std::unique_ptr<RemoteVoxels> remote;
   CacheDirectory directory;  // which ranks have been sent what, roughly: for balancing

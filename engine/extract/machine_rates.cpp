@@ -15,7 +15,7 @@
 namespace footwall::extract {
 namespace {
 
-constexpr double kLinkSeconds = 0.08;
+constexpr double kLinkSeconds = 0.25;
 constexpr double kComputingSeconds = 0.08;  // of every core
 
 comm::Bytes bytes_of(const std::string& text) {

@@ -160,6 +160,7 @@ void run_probes(const Setup& setup, const JobContext& job, Outcome& outcome) {
     outcome.seconds.voxelize += probed.seconds.voxelize;
     outcome.seconds.exchange += probed.seconds.exchange;
     outcome.seconds.compute += probed.seconds.compute;
+    outcome.seconds.wait += probed.seconds.wait;
   }
 }
 

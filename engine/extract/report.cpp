@@ -7,12 +7,12 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<Tally>);
 
-std::array<double, 6> listed(const Seconds& s) {
-  return {s.read, s.balance, s.voxelize, s.exchange, s.compute, s.total};
+std::array<double, 7> listed(const Seconds& s) {
+  return {s.read, s.balance, s.voxelize, s.exchange, s.compute, s.wait, s.total};
 }
 
-Seconds named(const std::array<double, 6>& s, double sign) {
-  return {sign * s[0], sign * s[1], sign * s[2], sign * s[3], sign * s[4], sign * s[5]};
+Seconds named(const std::array<double, 7>& s, double sign) {
+  return {sign * s[0], sign * s[1], sign * s[2], sign * s[3], sign * s[4], sign * s[5], sign * s[6]};
 }
 
 void add(const Tally& other, Tally& into) {

@@ -23,9 +23,9 @@ struct Tally {
   } sums;
   std::int64_t most_walked = 0;
   // Of the slowest rank, and of the quickest with a minus sign: read, balance, voxelize, exchange, compute,
-  // total.
-  std::array<double, 6> slowest{};
-  std::array<double, 6> quickest{};
+  // wait, total.
+  std::array<double, 7> slowest{};
+  std::array<double, 7> quickest{};
 
   void set(const Seconds& seconds);
   Seconds slowest_seconds() const;

@@ -155,7 +155,10 @@ class Bench {
     GatherRow row;
     row.area = area;
     row.faces = static_cast<std::int64_t>(faces_.size());
-    const std::vector<std::int64_t> by_place = extract::ordered_by_place(faces_);
+    extract::FaceOrder order;
+    order.of(faces_);
+    std::vector<std::int64_t> by_place;
+    for (std::size_t n = 0; n < order.size(); ++n) by_place.push_back(static_cast<std::int64_t>(order[n]));
     std::vector<std::int64_t> as_listed = by_place;
     std::sort(as_listed.begin(), as_listed.end());
     row.voxels = fold(as_listed);  // also warms what can be warmed

@@ -24,7 +24,7 @@ struct GatherRow {
   std::int64_t voxels = 0;
   double spans = 0;           // voxelized and counted
   double folded = 0;          // with gather and moments, faces in the order of the list (random places)
-  double folded_ordered = 0;  // the same in the order of ordered_by_place()
+  double folded_ordered = 0;  // the same in the order of FaceOrder
 };
 
 struct GatherResult {

@@ -57,6 +57,7 @@ console::Json json_of(const tasks::BenchCell& cell, const tasks::BenchResult& re
   const tasks::BenchCell* serial = result.serial(cell.benchmark);
   const double seconds = cell.median(&BenchRun::slowest_rank);
   const auto median = [&](double BenchRun::*of) { return cell.median(of); };
+  const auto apart = [&](double BenchRun::*of) { return cell.median_apart(of); };
   console::Json json{{"benchmark", cell.benchmark},
                      {"ranks", cell.ranks},
                      {"exchange", cell.pair.exchange},
@@ -72,6 +73,12 @@ console::Json json_of(const tasks::BenchCell& cell, const tasks::BenchResult& re
                        {"voxelize", median(&BenchRun::voxelize)},
                        {"exchange", median(&BenchRun::exchange)},
                        {"compute", median(&BenchRun::compute)}}},
+                     {"seconds_apart",
+                      {{"balance", apart(&BenchRun::balance)},
+                       {"voxelize", apart(&BenchRun::voxelize)},
+                       {"exchange", apart(&BenchRun::exchange)},
+                       {"compute", apart(&BenchRun::compute)},
+                       {"wait", apart(&BenchRun::wait)}}},
                      {"bytes_sent", median(&BenchRun::bytes)},
                      {"messages", median(&BenchRun::messages)},
                      {"cache_hits", median(&BenchRun::cache_hits)},
@@ -107,7 +114,8 @@ console::Json json_of(const tasks::BenchResult& result, const Options& options) 
                                          {"seconds", one.seconds},
                                          {"auto_seconds", one.auto_seconds},
                                          {"time_ratio", one.time_ratio},
-                                         {"exchange_ratio", one.exchange_ratio}});
+                                         {"exchange_ratio", one.exchange_ratio},
+                                         {"waiting_exchange_ratio", one.waiting_exchange_ratio}});
   }
   for (const extract::MachineRates& rates : result.rates)
     json["rates"].push_back(console::Json::parse(extract::to_text(rates)));
@@ -153,6 +161,8 @@ void add_bench_extract(console::Program& program, CLI::App* group) {
   command->add_option("--compute", options->compute, "As of extract, e.g. variance,lot (default variance)");
   command->add_option("--snr", options->how.snr, "For lot: signal-to-noise ratio in dB (default 40)");
   command->add_option("--repeat", options->how.repeat, "Runs of each; medians count (default 1)");
+  command->add_option("--apart", options->how.apart,
+                      "So many runs of each on several ranks once more, with phases apart (default 1)");
   command->add_option("--scale", options->how.scale,
                       "For trials: a part of the faces and cycles, above 0, at most 1 (default 1)");
   command->add_flag("--markdown", options->markdown, "Print the tables as Markdown");

@@ -128,6 +128,8 @@ void add_workload_run(console::Program& program, CLI::App* group) {
   command->add_option("--seed", options->how.seed, "Another seed gives other voxel values (default 1)");
   command->add_flag("--keep-cache", options->how.keep_cache,
                     "Keep other ranks' voxels from one repeat to the next (default: within a repeat)");
+  command->add_flag("--phases-apart", engine.phases_apart,
+                    "For measuring: tell the waiting for slower ranks apart from the exchange");
 }
 
 }  // namespace footwall::commands

@@ -78,8 +78,8 @@ Seconds by_request(const Choice& exchange, const Workload& workload, const Machi
   const auto others = static_cast<double>(workload.ranks.size() - 1);
   const double latency = others > 0 ? 2 * (2 * rates.alpha + 2 * others * rates.overhead) : 0;
   return {.voxelize = voxelize.seconds(),
-          .exchange = latency + rates.byte * bytes + pack.seconds(),
-          .compute = compute.seconds()};
+          .exchange = latency + rates.byte * bytes,
+          .compute = compute.seconds() + pack.seconds()};
 }
 
 // 3.30: send the bounding volumes, voxelize meanwhile, compute.
@@ -100,7 +100,7 @@ Seconds by_volume(const Choice& exchange, const Workload& workload, const Machin
   // The transfer overlaps the voxelizing; what is left of it is the exchange.
   const double transfer = partners > 0 ? rates.alpha + rates.overhead * partners + rates.byte * bytes : 0;
   const double left = std::max(0.0, transfer - voxelize.seconds());
-  return {.voxelize = voxelize.seconds(), .exchange = left + pack.seconds(), .compute = compute.seconds()};
+  return {.voxelize = voxelize.seconds(), .exchange = left, .compute = compute.seconds() + pack.seconds()};
 }
 
 // Owners voxelize what others are responsible for and send the values in that order; receivers voxelize
@@ -122,7 +122,7 @@ Seconds by_push(const Choice& exchange, const Workload& workload, const MachineR
   }
   const double transfer = partners > 0 ? rates.alpha + rates.overhead * partners + rates.byte * bytes : 0;
   return {
-      .voxelize = voxelize.seconds(), .exchange = transfer + pack.seconds(), .compute = compute.seconds()};
+      .voxelize = voxelize.seconds(), .exchange = transfer, .compute = compute.seconds() + pack.seconds()};
 }
 
 // Owners fold what they own, and send sums.
@@ -141,7 +141,7 @@ Seconds by_reduce(const Choice& /*exchange*/, const Workload& workload, const Ma
     partners = std::max({partners, rank.partners_received, rank.partners_sent});
   }
   const double transfer = partners > 0 ? rates.alpha + rates.overhead * partners + rates.byte * bytes : 0;
-  return {.voxelize = fold.seconds(), .exchange = transfer + pack.seconds(), .compute = finish.seconds()};
+  return {.voxelize = fold.seconds(), .exchange = transfer, .compute = finish.seconds() + pack.seconds()};
 }
 
 struct Model {

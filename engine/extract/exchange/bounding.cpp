@@ -5,12 +5,10 @@
 // Steps: 1 voxelize: list and pack the voxels of the boxes; 2 exchange: sizes, then coordinates and values,
 // 16 bytes a voxel, in messages that do not block; 3 voxelize: the own faces, meanwhile; 4 exchange: wait for
 // the rest; 5 compute: keep what came, and the other faces.
-#include <omp.h>
-
 #include "engine/comm/transfer.h"
 #include "engine/extract/cache/brick_values.h"
 #include "engine/extract/exchange/compute_faces.h"
-#include "engine/extract/exchange/message_buffer.h"
+#include "engine/extract/exchange/phases.h"
 #include "engine/extract/exchange/wanted_voxels.h"
 
 namespace footwall::extract {
@@ -20,10 +18,14 @@ constexpr int kTag = 4;
 
 // The messages of a pair: the coordinates of all its voxels, then their values.
 struct Parcel {
-  explicit Parcel(std::uint64_t voxels = 0) : coordinates(voxels), values(voxels) {}
-  MessageBuffer<Coordinates> coordinates;
-  MessageBuffer<float> values;
+  Message<Coordinates> coordinates;
+  Message<float> values;
 };
+enum Way : std::size_t { kOutgoing, kIncoming };
+Parcel parcel(const Setup& setup, Way way, std::size_t rank, std::uint64_t voxels) {
+  return {setup.kept.messages.of<Coordinates>(2 * way, rank, voxels),
+          setup.kept.messages.of<float>(2 * way + 1, rank, voxels)};
+}
 
 }  // namespace
 
@@ -31,7 +33,7 @@ Outcome exchange_bounding(const Setup& setup) {
   Outcome outcome;
   comm::Communicator& world = setup.world;
   const auto ranks = static_cast<std::size_t>(world.size());
-  const double start = omp_get_wtime();
+  Phases phases(setup);
   std::vector<std::uint64_t> sending(ranks, 0);
   std::vector<Parcel> outgoing(ranks);
   std::vector<Parcel> incoming(ranks);
@@ -40,18 +42,21 @@ Outcome exchange_bounding(const Setup& setup) {
     leave_out_sent(setup, wanted);
     for (std::size_t r = 0; r < ranks; ++r) {
       sending[r] = static_cast<std::uint64_t>(voxels_in(wanted[r]));
-      outgoing[r] = Parcel(sending[r]);
-      coordinates_of(wanted[r], outgoing[r].coordinates.items());
-      gather(setup.blocks, wanted[r], outgoing[r].values.items());
+      outgoing[r] = parcel(setup, kOutgoing, r, sending[r]);
+      coordinates_of(wanted[r], outgoing[r].coordinates.items);
+      gather(setup.blocks, wanted[r], outgoing[r].values.items);
       setup.sent.enter(static_cast<int>(r), wanted[r]);
     }
   });
-  const double packed = omp_get_wtime();
 
+  phases.enter(&Seconds::exchange);
+  phases.meet();
   const std::vector<std::uint64_t> coming = ranks > 1 ? comm::exchange_sizes(world, sending) : sending;
+  phases.enter(&Seconds::compute);
   world.collectively([&] {
-    for (std::size_t r = 0; r < ranks; ++r) incoming[r] = Parcel(coming[r]);
+    for (std::size_t r = 0; r < ranks; ++r) incoming[r] = parcel(setup, kIncoming, r, coming[r]);
   });
+  phases.enter(&Seconds::exchange);
   comm::Transfer transfer(world, kTag);
   for (std::size_t r = 0; r < ranks; ++r) {
     transfer.receive(static_cast<int>(r), incoming[r].coordinates.bytes());
@@ -62,34 +67,32 @@ Outcome exchange_bounding(const Setup& setup) {
     transfer.send(static_cast<int>(r), outgoing[r].coordinates.bytes());
     transfer.send(static_cast<int>(r), outgoing[r].values.bytes());
   }
-  const double posted = omp_get_wtime();
 
+  phases.enter(&Seconds::voxelize);
   OwnFaces faces;
-  double voxelized = posted;
   world.collectively([&] {
     faces = own_faces(setup);
     ListPerRank needed = needed_from(setup, faces.crossing);
     leave_out_cached(setup, needed);  // counts the hits; all that is left is on its way
-    voxelized = omp_get_wtime();
+    phases.enter(&Seconds::compute);
     compute_faces(setup, faces.local, outcome, [&] { transfer.progress(); });
   });
-  const double computed = omp_get_wtime();
 
+  phases.enter(&Seconds::exchange);
+  phases.meet();
   transfer.wait();
-  const double exchanged = omp_get_wtime();
 
+  phases.enter(&Seconds::compute);
   world.collectively([&] {
     for (std::size_t r = 0; r < ranks; ++r) {
       const Parcel& parcel = incoming[r];
       if (coming[r] > 0 && static_cast<int>(r) != world.rank()) {
-        setup.cache.put(static_cast<int>(r), bricks_of(parcel.coordinates.items()), parcel.values.items());
+        setup.cache.put(static_cast<int>(r), bricks_of(parcel.coordinates.items), parcel.values.items);
       }
     }
     compute_faces(setup, faces.crossing, outcome);
   });
-  outcome.seconds.voxelize = packed - start + (voxelized - posted);
-  outcome.seconds.exchange = posted - packed + (exchanged - computed);
-  outcome.seconds.compute = computed - voxelized + (omp_get_wtime() - exchanged);
+  outcome.seconds = phases.end();
   return outcome;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/extract/exchange/face_folder.h"
+#include "engine/extract/face_order.h"
 #include "engine/extract/parallel_faces.h"
 #include "engine/voxelize/exact.h"
 #include "engine/voxelize/registry.h"
@@ -39,7 +40,10 @@ OwnFaces own_faces(const Setup& setup) {
   OwnFaces faces;
   const std::vector<survey::Box> boxes = full_boxes(setup);
   const survey::Box survey{{0, 0, 0}, setup.input.dims};
-  for (std::size_t n = 0; n < setup.input.faces.size(); ++n) {
+  FaceOrder order;
+  order.of(setup.input.faces);
+  for (std::size_t at = 0; at < order.size(); ++at) {
+    const std::size_t n = order[at];
     if (!setup.mine(n)) continue;
     const survey::Box around =
         survey::intersection(voxelize::bounding_voxels(setup.face(n).triangle), survey);

@@ -4,6 +4,8 @@
 #pragma once
 #include <memory>
 
+#include "engine/extract/exchange/message_rooms.h"
+
 namespace footwall::extract {
 
 class ReduceBuffers;
@@ -14,6 +16,7 @@ struct Kept {
   Kept(const Kept&) = delete;
   Kept& operator=(const Kept&) = delete;
 
+  MessageRooms messages;  // of the strategy that runs: one at a time does
   std::unique_ptr<ReduceBuffers> reduce;
 };
 

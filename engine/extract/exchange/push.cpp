@@ -5,12 +5,10 @@
 // message is checked. Steps: 1 voxelize: what others need of this rank, gathered, and what it needs of
 // others, both without what was sent before; 2 exchange: post receives and sends; 3 compute: the faces that
 // need nothing, meanwhile; 4 exchange: wait for the rest; 5 compute: keep what came, and the other faces.
-#include <omp.h>
-
 #include "engine/comm/transfer.h"
 #include "engine/extract/cache/brick_values.h"
 #include "engine/extract/exchange/compute_faces.h"
-#include "engine/extract/exchange/message_buffer.h"
+#include "engine/extract/exchange/phases.h"
 #include "engine/extract/exchange/wanted_voxels.h"
 
 namespace footwall::extract {
@@ -18,17 +16,20 @@ namespace {
 
 constexpr int kTag = 5;
 
+// Kinds of messages.
+enum Kind : std::size_t { kOutgoing, kIncoming };
+
 }  // namespace
 
 Outcome exchange_push(const Setup& setup) {
   Outcome outcome;
   comm::Communicator& world = setup.world;
   const auto ranks = static_cast<std::size_t>(world.size());
-  const double start = omp_get_wtime();
+  Phases phases(setup);
   OwnFaces faces;
   ListPerRank needed;
-  BufferPerRank<float> outgoing(ranks);
-  BufferPerRank<float> incoming(ranks);
+  MessagePerRank<float> outgoing(ranks);
+  MessagePerRank<float> incoming(ranks);
   world.collectively([&] {
     ListPerRank wanted = needed_by(setup);
     leave_out_sent(setup, wanted);
@@ -36,14 +37,16 @@ Outcome exchange_push(const Setup& setup) {
     needed = needed_from(setup, faces.crossing);
     leave_out_cached(setup, needed);
     for (std::size_t r = 0; r < ranks; ++r) {
-      incoming[r] = MessageBuffer<float>(static_cast<std::size_t>(voxels_in(needed[r])));
-      outgoing[r] = MessageBuffer<float>(static_cast<std::size_t>(voxels_in(wanted[r])));
-      gather(setup.blocks, wanted[r], outgoing[r].items());
+      incoming[r] =
+          setup.kept.messages.of<float>(kIncoming, r, static_cast<std::size_t>(voxels_in(needed[r])));
+      outgoing[r] =
+          setup.kept.messages.of<float>(kOutgoing, r, static_cast<std::size_t>(voxels_in(wanted[r])));
+      gather(setup.blocks, wanted[r], outgoing[r].items);
       setup.sent.enter(static_cast<int>(r), wanted[r]);
     }
   });
-  const double packed = omp_get_wtime();
 
+  phases.enter(&Seconds::exchange);
   comm::Transfer transfer(world, kTag);
   for (std::size_t r = 0; r < ranks; ++r) {
     transfer.receive(static_cast<int>(r), incoming[r].bytes());
@@ -52,23 +55,22 @@ Outcome exchange_push(const Setup& setup) {
     const std::size_t r = (static_cast<std::size_t>(world.rank()) + n) % ranks;  // not all to rank 0 first
     transfer.send(static_cast<int>(r), outgoing[r].bytes());
   }
-  const double posted = omp_get_wtime();
 
+  phases.enter(&Seconds::compute);
   world.collectively([&] { compute_faces(setup, faces.local, outcome, [&] { transfer.progress(); }); });
-  const double computed = omp_get_wtime();
 
+  phases.enter(&Seconds::exchange);
+  phases.meet();
   transfer.wait();
-  const double exchanged = omp_get_wtime();
 
+  phases.enter(&Seconds::compute);
   world.collectively([&] {
     for (std::size_t r = 0; r < ranks; ++r) {
-      if (!needed[r].empty()) setup.cache.put(static_cast<int>(r), needed[r], incoming[r].items());
+      if (!needed[r].empty()) setup.cache.put(static_cast<int>(r), needed[r], incoming[r].items);
     }
     compute_faces(setup, faces.crossing, outcome);
   });
-  outcome.seconds.voxelize = packed - start;
-  outcome.seconds.exchange = posted - packed + (exchanged - computed);
-  outcome.seconds.compute = computed - posted + (omp_get_wtime() - exchanged);
+  outcome.seconds = phases.end();
   return outcome;
 }
 

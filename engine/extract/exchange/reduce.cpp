@@ -2,10 +2,10 @@
 // Every rank knows the faces and the boxes of all ranks: a face's bounding box says who may have sums of it,
 // so that messages go between those pairs of ranks alone, and no size is asked for. Where a rank is
 // responsible for what only it folds (always, on one rank), the sums become statistics on the spot.
-// Steps: 1 deal: who folds and who sends what; 2 voxelize: every rank walks the part of every face that lies
-// in its own columns; 3 exchange: one round of records; 4 compute: the responsible rank merges and finishes.
-#include <omp.h>
-
+// Steps: 1 deal: who folds and who sends what; 2 voxelize: every rank walks the part that lies in its own
+// columns of the faces of others; 3 exchange: one round of records begins; 4 voxelize: the faces that it is
+// responsible for, meanwhile; 5 exchange: the records end; 6 compute: merges and finishes those.
+#include "engine/extract/exchange/phases.h"
 #include "engine/extract/exchange/reduce_buffers.h"
 #include "engine/extract/parallel_faces.h"
 #include "engine/voxelize/exact.h"
@@ -18,6 +18,8 @@ using Task = ReduceBuffers::Task;
 
 // Fewer faces than this need so little memory that its lack may end the job without agreement.
 constexpr std::size_t kFewFaces = 4096;
+// Between two looks at the messages under way.
+constexpr std::size_t kFacesPerLook = 64;
 
 // Calls visit(rank) once for each rank with columns in the box, which lies in the survey and is not empty.
 template <typename Visit>
@@ -53,12 +55,15 @@ void deal(const Setup& setup, ReduceBuffers& kept, std::vector<Finished>& finish
   const std::size_t faces = setup.input.faces.size();
   const survey::Box survey{{0, 0, 0}, setup.grid.dims()};
   kept.make_workers(setup);
+  kept.to_send.clear();
   kept.tasks.clear();
   kept.partners.clear();
   kept.partner_of_rank.assign(static_cast<std::size_t>(setup.world.size()), -1);
   kept.task_of_face.assign(setup.world.size() > 1 ? faces : 0, -1);
   std::int32_t shared = 0;
-  for (std::size_t n = 0; n < faces; ++n) {
+  kept.order.of(setup.input.faces);
+  for (std::size_t at = 0; at < faces; ++at) {
+    const std::size_t n = kept.order[at];
     const survey::Box box = survey::intersection(voxelize::bounding_voxels(setup.face(n).triangle), survey);
     const bool mine = setup.mine(n);
     bool own = false;
@@ -85,7 +90,7 @@ void deal(const Setup& setup, ReduceBuffers& kept, std::vector<Finished>& finish
       ++partner(kept, setup.responsible[n]).to;
       task.partner = kept.partner_of_rank[static_cast<std::size_t>(setup.responsible[n])];
     }
-    kept.tasks.push_back(task);
+    (mine ? kept.tasks : kept.to_send).push_back(task);
   }
   kept.partials.assign(static_cast<std::size_t>(shared), {});
   const std::size_t most = most_bytes(setup.with_discontinuity);
@@ -105,14 +110,16 @@ void deal(const Setup& setup, ReduceBuffers& kept, std::vector<Finished>& finish
   }
 }
 
-// Step 2.
-void fold_own(const Setup& setup, ReduceBuffers& kept, std::vector<Finished>& finished) {
+// Steps 2 and 4: the own part of some faces.
+void fold(const Setup& setup, std::span<const Task> tasks, ReduceBuffers& kept,
+          std::vector<Finished>& finished) {
   setup.job.check();  // also where there is no face
   const std::span<const Block> blocks = setup.blocks.all();
-  const int threads = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(setup.threads),
-                                                             std::max<std::size_t>(1, kept.tasks.size())));
-  parallel_faces(kept.tasks.size(), threads, setup.job, "voxelize", [&](std::size_t thread, std::size_t n) {
-    const Task& task = kept.tasks[n];
+  const int threads = static_cast<int>(
+      std::min<std::size_t>(static_cast<std::size_t>(setup.threads), std::max<std::size_t>(1, tasks.size())));
+  parallel_faces(tasks.size(), threads, setup.job, "voxelize", [&](std::size_t thread, std::size_t n) {
+    if (thread == 0 && n % kFacesPerLook == 0) setup.world.progress_known();
+    const Task& task = tasks[n];
     const survey::LatticeTriangle& triangle = setup.face(static_cast<std::size_t>(task.face)).triangle;
     ReduceBuffers::Worker& worker = kept.workers[thread];
     Partial partial;
@@ -149,7 +156,7 @@ void put_together(ReduceBuffers& kept) {
 }
 
 // Step 3. A rank that failed sends empty messages, so that nobody waits.
-void send_and_receive(const Setup& setup, ReduceBuffers& kept, bool failed) {
+void begin_messages(const Setup& setup, ReduceBuffers& kept, bool failed) {
   const std::size_t most = most_bytes(setup.with_discontinuity);
   for (std::size_t p = 0; p < kept.partners.size(); ++p) {
     const ReduceBuffers::Partner& to = kept.partners[p];
@@ -158,10 +165,10 @@ void send_and_receive(const Setup& setup, ReduceBuffers& kept, bool failed) {
     if (!failed) bytes = kept.workers.front().records[p];
     kept.outgoing.push_back({to.rank, bytes, to.to * most});
   }
-  if (!kept.partners.empty()) setup.world.exchange_known(kept.outgoing, kept.incoming);
+  setup.world.begin_known(kept.outgoing, kept.incoming);
 }
 
-// Step 4.
+// Step 6.
 void merge_all(const Setup& setup, ReduceBuffers& kept, std::vector<Finished>& finished) {
   for (const comm::KnownIncoming& message : kept.incoming) {
     std::span<const std::byte> rest = message.room.first(message.received);
@@ -183,14 +190,6 @@ void merge_all(const Setup& setup, ReduceBuffers& kept, std::vector<Finished>& f
 }
 
 }  // namespace
-
-std::span<std::byte> Room::of(std::size_t bytes) {
-  if (size_ < bytes) {
-    bytes_ = std::make_unique_for_overwrite<std::byte[]>(bytes);
-    size_ = bytes;
-  }
-  return {bytes_.get(), bytes};
-}
 
 void ReduceBuffers::make_workers(const Setup& setup) {
   const bool same = voxelizer_ == setup.options.voxelizer && scale_ == setup.scale &&
@@ -215,7 +214,7 @@ Kept::~Kept() = default;
 
 Outcome exchange_reduce(const Setup& setup) {
   Outcome outcome;
-  const double start = omp_get_wtime();
+  Phases phases(setup);
   if (!setup.kept.reduce) setup.kept.reduce = std::make_unique<ReduceBuffers>();
   ReduceBuffers& kept = *setup.kept.reduce;
   const auto dealt = [&] { deal(setup, kept, outcome.finished); };
@@ -224,25 +223,30 @@ Outcome exchange_reduce(const Setup& setup) {
   } else {
     setup.world.collectively(dealt);
   }
-  try {
-    fold_own(setup, kept, outcome.finished);
+  const auto unless_failed = [&](auto&& step) {
+    if (outcome.failure) return;
+    try {
+      step();
+    } catch (...) {
+      outcome.failure = comm::current_error();
+    }
+  };
+  unless_failed([&] {
+    fold(setup, kept.to_send, kept, outcome.finished);
     put_together(kept);
-  } catch (...) {
-    outcome.failure = comm::current_error();
-    kept.workers.clear();  // they hold half a face
-  }
-  const double voxelized = omp_get_wtime();
-  send_and_receive(setup, kept, outcome.failure.has_value());
-  const double exchanged = omp_get_wtime();
-  try {
-    if (!outcome.failure) merge_all(setup, kept, outcome.finished);
-  } catch (...) {
-    outcome.failure = comm::current_error();
-  }
+  });
+  phases.enter(&Seconds::exchange);
+  begin_messages(setup, kept, outcome.failure.has_value());
+  phases.enter(&Seconds::voxelize);
+  unless_failed([&] { fold(setup, kept.tasks, kept, outcome.finished); });
+  phases.enter(&Seconds::exchange);
+  phases.meet();
+  setup.world.end_known(kept.incoming);
+  phases.enter(&Seconds::compute);
+  unless_failed([&] { merge_all(setup, kept, outcome.finished); });
   for (const ReduceBuffers::Worker& worker : kept.workers) outcome.walked += worker.walked;
-  outcome.seconds.voxelize = voxelized - start;
-  outcome.seconds.exchange = exchanged - voxelized;
-  outcome.seconds.compute = omp_get_wtime() - exchanged;
+  if (outcome.failure) kept.workers.clear();  // they hold half a face
+  outcome.seconds = phases.end();
   return outcome;
 }
 

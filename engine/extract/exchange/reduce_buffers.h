@@ -6,21 +6,11 @@
 
 #include "engine/comm/communicator.h"
 #include "engine/extract/exchange/exchange.h"
+#include "engine/extract/face_order.h"
 #include "engine/extract/fold_rows.h"
 #include "engine/voxelize/rows.h"
 
 namespace footwall::extract {
-
-// Bytes that grow, and are not cleared when they do.
-class Room {
- public:
-  // What is in it is lost where it grows. Throws std::bad_alloc.
-  std::span<std::byte> of(std::size_t bytes);
-
- private:
-  std::unique_ptr<std::byte[]> bytes_;
-  std::size_t size_ = 0;
-};
 
 class ReduceBuffers {
  public:
@@ -31,7 +21,7 @@ class ReduceBuffers {
     std::vector<std::vector<std::byte>> records;      // by number of the partner
     std::int64_t walked = 0;
   };
-  // A face that this rank folds, finishes, or both.
+  // A face that this rank folds, finishes, or both; in the order in which they are folded.
   struct Task {
     std::int64_t face = 0;
     std::int32_t partner = -1;  // whom to send to; -1: this rank is responsible
@@ -50,7 +40,9 @@ class ReduceBuffers {
   void make_workers(const Setup& setup);
 
   std::vector<Worker> workers;
-  std::vector<Task> tasks;
+  FaceOrder order;
+  std::vector<Task> to_send;  // of faces of other ranks
+  std::vector<Task> tasks;    // of the faces of this rank
   std::vector<Partner> partners;
   std::vector<std::int32_t> partner_of_rank;  // -1: none
   std::vector<Partial> partials;              // of the faces that several ranks fold

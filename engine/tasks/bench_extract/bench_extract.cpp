@@ -38,6 +38,9 @@ void check(const BenchExtractOptions& options) {
   if (options.repeat < 1)
     throw Error(ErrorCode::kUsage, fmt::format("--repeat {} gives no median", options.repeat),
                 "give 1 or more");
+  if (options.apart < 0)
+    throw Error(ErrorCode::kUsage, fmt::format("there cannot be {} runs apart", options.apart),
+                "give 0 or more");
   if (!(options.scale > 0 && options.scale <= 1)) {
     throw Error(ErrorCode::kUsage, fmt::format("--scale {} cannot be", options.scale),
                 "give a number above 0, at most 1, such as 0.1 for a trial");
@@ -89,7 +92,8 @@ struct Bench {
           how.launch = options.launch;
           how.launch.ranks = ranks;
           how.options = options_for(options, pair);
-          const BenchRun one = run_from(engine.run(how, job.part(at * share, (at + 1) * share)));
+          const JobContext part = job.part(at * share, (at + 1) * share);
+          const BenchRun one = run_from(engine.run(how, part));
           const std::string me = fmt::format("{} on {} ranks", name_of(pair), ranks);
           if (first && *first != one.checksum) {
             throw Error(ErrorCode::kInternal,
@@ -99,6 +103,9 @@ struct Bench {
           if (!first) whose = me;
           first = one.checksum;
           cell(benchmark, ranks, pair).runs.push_back(one);
+          if (ranks == 1 || round >= options.apart) continue;
+          how.options.phases_apart = true;
+          cell(benchmark, ranks, pair).apart.push_back(run_from(engine.run(how, part)));
         }
       }
     }
@@ -108,7 +115,7 @@ struct Bench {
     for (BenchCell& each : result.cells) {
       if (each.benchmark == benchmark && each.ranks == ranks && each.pair == pair) return each;
     }
-    return result.cells.emplace_back(BenchCell{benchmark, ranks, pair, {}});
+    return result.cells.emplace_back(BenchCell{benchmark, ranks, pair, {}, {}});
   }
 };
 

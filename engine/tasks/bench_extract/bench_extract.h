@@ -23,6 +23,7 @@ struct BenchExtractOptions {
   std::vector<std::string> compute{"variance"};
   double snr = 40;   // dB, where `lot` is computed
   int repeat = 1;    // runs of each cell; the median counts
+  int apart = 1;     // of them, on several ranks, are repeated with their phases apart
   double scale = 1;  // of the numbers of faces and cycles, for trials: 0..1
   session::LaunchOptions launch;
 };

@@ -29,8 +29,11 @@ std::vector<AutoAgainstSeed> auto_against_seed(const BenchResult& result) {
       AutoAgainstSeed one{benchmark, ranks, seed->pair, seed->median(&BenchRun::slowest_rank),
                           automatic->median(&BenchRun::slowest_rank)};
       one.time_ratio = one.seconds > 0 ? one.auto_seconds / one.seconds : 0;
-      const double exchange = automatic->median(&BenchRun::exchange);
-      one.exchange_ratio = exchange > 0 ? seed->median(&BenchRun::exchange) / exchange : 0;
+      const auto ratio = [](double pair, double ours) { return ours > 0 ? pair / ours : 0; };
+      one.exchange_ratio =
+          ratio(seed->median_apart(&BenchRun::exchange), automatic->median_apart(&BenchRun::exchange));
+      one.waiting_exchange_ratio =
+          ratio(seed->median(&BenchRun::exchange), automatic->median(&BenchRun::exchange));
       all.push_back(one);
     }
   }
@@ -45,23 +48,23 @@ std::optional<double> exchange_model(const BenchResult& result, const BenchCell&
 }
 
 std::vector<Table> comparison_tables(const BenchResult& result) {
-  Table against{
-      "auto against the fastest of the seed's pairs",
-      {"benchmark", "ranks", "fastest seed pair", "s", "auto s", "auto / seed", "exchange, seed / auto"},
-      {}};
+  Table against{"auto against the fastest of the seed's pairs",
+                {"benchmark", "ranks", "fastest seed pair", "s", "auto s", "auto / seed",
+                 "exchange, seed / auto", "with waiting"},
+                {}};
   for (const AutoAgainstSeed& one : auto_against_seed(result)) {
     against.rows.push_back({std::to_string(one.benchmark), std::to_string(one.ranks), name_of(one.fastest),
                             fmt::format("{:.4f}", one.seconds), fmt::format("{:.4f}", one.auto_seconds),
-                            fmt::format("{:.3f}", one.time_ratio),
-                            fmt::format("{:.1f}", one.exchange_ratio)});
+                            fmt::format("{:.3f}", one.time_ratio), fmt::format("{:.1f}", one.exchange_ratio),
+                            fmt::format("{:.1f}", one.waiting_exchange_ratio)});
   }
-  Table model{"Exchange of the seed's strategies, over bytes / bandwidth + alpha x messages",
+  Table model{"Exchange of the seed's strategies, apart, over bytes / bandwidth + alpha x messages",
               {"exchange, balance", "benchmark", "ranks", "measured s", "model s", "measured / model"},
               {}};
   for (const BenchCell& cell : result.cells) {
     const std::optional<double> seconds = exchange_model(result, cell);
     if (!seconds || !is_of_seed(cell.pair)) continue;
-    const double measured = cell.median(&BenchRun::exchange);
+    const double measured = cell.median_apart(&BenchRun::exchange);
     model.rows.push_back({name_of(cell.pair), std::to_string(cell.benchmark), std::to_string(cell.ranks),
                           fmt::format("{:.4f}", measured), fmt::format("{:.4f}", *seconds),
                           *seconds > 0 ? fmt::format("{:.2f}", measured / *seconds) : ""});

@@ -12,11 +12,13 @@ namespace footwall::tasks {
 struct AutoAgainstSeed {
   int benchmark = 1;
   int ranks = 1;
-  StrategyPair fastest;       // of the seed's pairs
-  double seconds = 0;         // of that pair
-  double auto_seconds = 0;    // of auto, auto
-  double time_ratio = 0;      // auto's over the pair's
-  double exchange_ratio = 0;  // the pair's exchange phase over auto's; 0 where auto's took no time
+  StrategyPair fastest;     // of the seed's pairs
+  double seconds = 0;       // of that pair
+  double auto_seconds = 0;  // of auto, auto
+  double time_ratio = 0;    // auto's over the pair's
+  // The pair's exchange phase over auto's; 0 where auto's took no time. Apart, and with the waiting.
+  double exchange_ratio = 0;
+  double waiting_exchange_ratio = 0;
 };
 // Of every benchmark and number of ranks above 1 that ran both.
 std::vector<AutoAgainstSeed> auto_against_seed(const BenchResult& result);

@@ -24,6 +24,12 @@ std::vector<double> sorted(const std::vector<BenchRun>& runs, double BenchRun::*
   return values;
 }
 
+double median_of(const std::vector<double>& sorted_values) {
+  const std::size_t middle = sorted_values.size() / 2;
+  return sorted_values.size() % 2 == 1 ? sorted_values[middle]
+                                       : (sorted_values[middle - 1] + sorted_values[middle]) / 2;
+}
+
 }  // namespace
 
 std::string name_of(const StrategyPair& pair) {
@@ -53,6 +59,7 @@ BenchRun run_from(const std::string& result_json) {
     seconds.at("voxelize").get_to(run.voxelize);
     seconds.at("exchange").get_to(run.exchange);
     seconds.at("compute").get_to(run.compute);
+    seconds.at("wait").get_to(run.wait);
     json.at("bytes_sent").get_to(run.bytes);
     json.at("messages").get_to(run.messages);
     json.at("cache_hits").get_to(run.cache_hits);
@@ -68,9 +75,10 @@ BenchRun run_from(const std::string& result_json) {
 }
 
 double BenchCell::median(double BenchRun::*of) const {
-  const std::vector<double> values = sorted(runs, of);
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+  return median_of(sorted(runs, of));
+}
+double BenchCell::median_apart(double BenchRun::*of) const {
+  return median_of(sorted(apart.empty() ? runs : apart, of));
 }
 double BenchCell::least(double BenchRun::*of) const {
   return sorted(runs, of).front();

@@ -21,7 +21,7 @@ bool is_of_seed(const StrategyPair& pair);
 // One run of a workload. Seconds of the whole of it, without the reading of the script.
 struct BenchRun {
   double slowest_rank = 0, quickest_rank = 0;
-  double apply = 0, balance = 0, voxelize = 0, exchange = 0, compute = 0;
+  double apply = 0, balance = 0, voxelize = 0, exchange = 0, compute = 0, wait = 0;
   double bytes = 0, messages = 0, cache_hits = 0;
   double load_deviation = 0, load_max_over_mean = 1;
   std::string checksum;
@@ -35,11 +35,14 @@ struct BenchCell {
   int ranks = 1;
   StrategyPair pair;
   std::vector<BenchRun> runs;
+  std::vector<BenchRun> apart;  // with Options::phases_apart: for what the phases take
 
   // Of the runs.
   double median(double BenchRun::*of) const;
   double least(double BenchRun::*of) const;
   double most(double BenchRun::*of) const;
+  // Of the runs apart, of the others where there are none.
+  double median_apart(double BenchRun::*of) const;
 };
 
 struct BenchResult {

@@ -97,20 +97,21 @@ Table rank_table(const BenchResult& result, int benchmark) {
 Table phase_table(const BenchResult& result, int benchmark) {
   constexpr double kMilli = 1e3;
   Table table{
-      fmt::format("Benchmark {}: phases of an EXTRACT-ALL, ms of the slowest rank in each; amounts of an "
-                  "EXTRACT-ALL over all ranks",
+      fmt::format("Benchmark {}: phases of an EXTRACT-ALL, apart, ms of the slowest rank in each; amounts of "
+                  "an EXTRACT-ALL over all ranks",
                   benchmark),
-      {"exchange, balance", "ranks", "balance", "voxelize", "exchange", "compute", "MB", "messages",
+      {"exchange, balance", "ranks", "balance", "voxelize", "exchange", "compute", "wait", "MB", "messages",
        "load max/mean"},
       {}};
   for (const BenchCell& cell : result.cells) {
     if (cell.benchmark != benchmark) continue;
-    const auto each = [&](double BenchRun::*of) { return cell.median(of) / result.extracts; };
+    const auto each = [&](double BenchRun::*of) { return cell.median_apart(of) / result.extracts; };
     table.rows.push_back({name_of(cell.pair), std::to_string(cell.ranks),
                           fmt::format("{:.3f}", kMilli * each(&BenchRun::balance)),
                           fmt::format("{:.3f}", kMilli * each(&BenchRun::voxelize)),
                           fmt::format("{:.3f}", kMilli * each(&BenchRun::exchange)),
                           fmt::format("{:.3f}", kMilli * each(&BenchRun::compute)),
+                          fmt::format("{:.3f}", kMilli * each(&BenchRun::wait)),
                           fmt::format("{:.3f}", each(&BenchRun::bytes) / kMega),
                           fmt::format("{:.0f}", each(&BenchRun::messages)),
                           fmt::format("{:.3f}", cell.median(&BenchRun::load_max_over_mean))});

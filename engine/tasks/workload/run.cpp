@@ -41,6 +41,7 @@ std::vector<std::string> engine_words(const WorkloadRunOptions& options, const f
   add("--memory", std::to_string(o.cache_bytes));
   if (o.snr > 0) add("--snr", text::shortest(o.snr));
   add("--seed", std::to_string(options.seed));
+  if (o.phases_apart) words.emplace_back("--phases-apart");
   if (options.keep_cache) words.emplace_back("--keep-cache");
   return words;
 }

@@ -186,6 +186,7 @@ class Runner {
                    {"compute", run_.options.compute},
                    {"seed", run_.seed},
                    {"keep_cache", run_.keep_cache},
+                   {"phases_apart", run_.options.phases_apart},
                    {"operations",
                     {{"adds", counts.adds()},
                      {"removes", removes},

@@ -11,13 +11,15 @@ void add_phases(const extract::Seconds& seconds, extract::Seconds& sum) {
   sum.voxelize += seconds.voxelize;
   sum.exchange += seconds.exchange;
   sum.compute += seconds.compute;
+  sum.wait += seconds.wait;
 }
 
 nlohmann::json phases(const extract::Seconds& seconds) {
   return {{"balance", seconds.balance},
           {"voxelize", seconds.voxelize},
           {"exchange", seconds.exchange},
-          {"compute", seconds.compute}};
+          {"compute", seconds.compute},
+          {"wait", seconds.wait}};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 
@@ -91,6 +92,32 @@ TEST(Communicator, ExchangeDeliversEveryByteAndCountsThem) {
   }
   EXPECT_EQ(world.traffic().bytes, bytes);
   EXPECT_EQ(world.traffic().messages, messages);
+}
+
+TEST(Communicator, KnownMessagesAreUnderWayWhileTheRankDoesSomethingElse) {
+  Communicator world(MPI_COMM_WORLD);
+  const int next = (world.rank() + 1) % world.size();
+  const int last = (world.rank() + world.size() - 1) % world.size();
+  for (int round = 0; round < 3; ++round) {  // memory and requests are used again
+    const Bytes sent(static_cast<std::size_t>(1000 * world.rank() + round), std::byte(world.rank() + round));
+    Bytes room(std::size_t{1000} * 8);
+    std::vector<KnownOutgoing> outgoing;
+    std::vector<KnownIncoming> incoming;
+    if (world.size() > 1) {
+      outgoing.push_back({next, sent, room.size()});
+      incoming.push_back({last, room});
+    }
+    world.progress_known();  // nothing is under way: nothing happens
+    world.begin_known(outgoing, incoming);
+    for (int look = 0; look < 100; ++look) world.progress_known();
+    world.end_known(incoming);
+    for (const KnownIncoming& from : incoming) {
+      EXPECT_EQ(from.received, static_cast<std::size_t>(1000 * last + round));
+      EXPECT_TRUE(std::all_of(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(from.received),
+                              [&](std::byte each) { return each == std::byte(last + round); }));
+    }
+  }
+  EXPECT_EQ(world.traffic().messages, world.size() > 1 ? 3 : 0);
 }
 
 TEST(Communicator, AWrongArgumentOnOneRankDoesNotHangTheOthers) {

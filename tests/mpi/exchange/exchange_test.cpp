@@ -79,6 +79,28 @@ TEST_P(Exchange, IsTheDefinition) {
   }
 }
 
+TEST_P(Exchange, PhasesApartGiveTheSameAndTellTheWaiting) {
+  const comm::Communicator world(MPI_COMM_WORLD);
+  Case c = random_case({43, 38, 29}, 40, 23);
+  for (const std::string& exchange : kAll) {
+    SCOPED_TRACE(exchange);
+    LoadedSurvey survey(world, c.dims, c.reader(), {}, pillars());
+    Options options = options_of(exchange, with_discontinuity());
+    const Report usual = survey.extract(c.input(), options).report;
+    EXPECT_EQ(usual.seconds.wait, 0);
+    survey.forget_cache();
+    options.phases_apart = true;
+    const Report apart = survey.extract(c.input(), options).report;
+    EXPECT_EQ(apart.checksum, usual.checksum);
+    EXPECT_EQ(apart.bytes_sent, usual.bytes_sent);
+    EXPECT_EQ(apart.messages, usual.messages);
+    EXPECT_EQ(apart.seconds.wait > 0, world.size() > 1);
+    const Seconds& s = apart.seconds;
+    EXPECT_LE(apart.quickest.wait, s.wait);
+    EXPECT_LE(std::max({s.balance, s.voxelize, s.exchange, s.compute, s.wait}), s.total);
+  }
+}
+
 // Both sides of a pair must drop the same bricks, or push would miss voxels and minimum send them twice.
 TEST_P(Exchange, ATinyCacheForgetsAlikeOnBothSides) {
   const comm::Communicator world(MPI_COMM_WORLD);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "storage/base/error.h"
@@ -10,16 +12,21 @@ namespace footwall::tasks {
 namespace {
 
 std::string answer(double seconds, const std::string& checksum) {
-  return nlohmann::json{
-      {"slowest_rank", seconds},
-      {"quickest_rank", seconds},
-      {"seconds", {{"apply", 0.1}, {"balance", 0.1}, {"voxelize", 0.1}, {"exchange", 0.1}, {"compute", 0.1}}},
-      {"bytes_sent", 1},
-      {"messages", 1},
-      {"cache_hits", 0},
-      {"load_deviation", 0},
-      {"load_max_over_mean", 1},
-      {"checksum", checksum}}
+  return nlohmann::json{{"slowest_rank", seconds},
+                        {"quickest_rank", seconds},
+                        {"seconds",
+                         {{"apply", 0.1},
+                          {"balance", 0.1},
+                          {"voxelize", 0.1},
+                          {"exchange", 0.1},
+                          {"compute", 0.1},
+                          {"wait", 0}}},
+                        {"bytes_sent", 1},
+                        {"messages", 1},
+                        {"cache_hits", 0},
+                        {"load_deviation", 0},
+                        {"load_max_over_mean", 1},
+                        {"checksum", checksum}}
       .dump();
 }
 
@@ -56,10 +63,17 @@ TEST(BenchExtract, RunsEveryPairAndAutoOnEveryNumberOfRanks) {
   options.exchanges = {"minimum", "reduce"};
   options.balances = {"none", "global=0"};
   const BenchResult result = bench_extract(options, fake.engine(), {});
-  // One rank: 2 exchanges and auto; two ranks: 4 pairs and auto; twice each.
-  EXPECT_EQ(fake.asked.size(), 2U * (3 + 5));
+  // One rank: 2 exchanges and auto; two ranks: 4 pairs and auto; twice each, and those on two ranks once more
+  // with their phases apart.
+  EXPECT_EQ(fake.asked.size(), 2U * (3 + 5) + 5);
+  EXPECT_EQ(std::count_if(fake.asked.begin(), fake.asked.end(),
+                          [](const WorkloadRunOptions& run) { return run.options.phases_apart; }),
+            5);
   EXPECT_EQ(result.cells.size(), 8U);
-  for (const BenchCell& cell : result.cells) EXPECT_EQ(cell.runs.size(), 2U);
+  for (const BenchCell& cell : result.cells) {
+    EXPECT_EQ(cell.runs.size(), 2U);
+    EXPECT_EQ(cell.apart.size(), cell.ranks == 1 ? 0U : 1U);
+  }
   EXPECT_NE(result.find(1, 2, {"auto", "auto"}), nullptr);
   EXPECT_EQ(result.find(1, 1, {"minimum", "global=0"}), nullptr);
   ASSERT_EQ(result.rates.size(), 1U);
@@ -97,7 +111,7 @@ TEST(BenchExtract, TheWorkloadsAreTheSeeds) {
 
 TEST(BenchExtract, RefusesWhatCannotBe) {
   Fake fake;
-  for (int n = 0; n < 6; ++n) {
+  for (int n = 0; n < 7; ++n) {
     BenchExtractOptions options = small();
     if (n == 0) options.benchmarks = {4};
     if (n == 1) options.ranks = {};
@@ -105,6 +119,7 @@ TEST(BenchExtract, RefusesWhatCannotBe) {
     if (n == 3) options.scale = 0;
     if (n == 4) options.exchanges = {"pigeon"};
     if (n == 5) options.compute = {"horoscope"};
+    if (n == 6) options.apart = -1;
     try {
       bench_extract(options, fake.engine(), {});
       FAIL() << n;

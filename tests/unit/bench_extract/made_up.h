@@ -21,13 +21,13 @@ inline BenchResult made_up() {
   BenchResult result;
   result.extracts = 10;
   result.repeats = 2;
-  result.cells = {{2, 1, {"minimum", "none"}, {run_of(9), run_of(8), run_of(30)}},
-                  {2, 1, {"auto", "auto"}, {run_of(6)}},
-                  {2, 2, {"minimum", "none"}, {run_of(5, 1.5), run_of(4, 2), run_of(4.5, 2.5)}},
-                  {2, 2, {"block=2", "local=0"}, {run_of(4, 3)}},
-                  {2, 2, {"push", "none"}, {run_of(3)}},
-                  {2, 2, {"minimum", "local=0,cache"}, {run_of(1)}},
-                  {2, 2, {"auto", "auto"}, {run_of(3.2, 0.5)}}};
+  result.cells = {{2, 1, {"minimum", "none"}, {run_of(9), run_of(8), run_of(30)}, {}},
+                  {2, 1, {"auto", "auto"}, {run_of(6)}, {}},
+                  {2, 2, {"minimum", "none"}, {run_of(5, 1.5), run_of(4, 2), run_of(4.5, 2.5)}, {}},
+                  {2, 2, {"block=2", "local=0"}, {run_of(4, 3)}, {run_of(4, 2)}},
+                  {2, 2, {"push", "none"}, {run_of(3)}, {}},
+                  {2, 2, {"minimum", "local=0,cache"}, {run_of(1)}, {}},
+                  {2, 2, {"auto", "auto"}, {run_of(3.2, 0.5)}, {}}};
   extract::MachineRates rates;
   rates.ranks = 2;
   rates.byte = 1e-7;

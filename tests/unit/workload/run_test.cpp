@@ -18,20 +18,21 @@ TEST(Run, HandsEveryOptionToTheEngine) {
   options.options.pillars = {2, 4};
   options.options.cache_bytes = 12;
   options.options.snr = 40.5;
+  options.options.phases_apart = true;
   options.seed = 9;
   options.keep_cache = true;
-  const std::vector<std::string> expected{"workload",     "/scripts/a.fww",
-                                          "--result",     "/tmp/r.json",
-                                          "--exchange",   "minimum",
-                                          "--balance",    "auto",
-                                          "--voxelizer",  "exact",
-                                          "--compute",    "mean,variance",
-                                          "--threads",    "3",
-                                          "--interleave", "2x4",
-                                          "--memory",     "12",
-                                          "--snr",        "40.5",
-                                          "--seed",       "9",
-                                          "--keep-cache"};
+  const std::vector<std::string> expected{"workload",       "/scripts/a.fww",
+                                          "--result",       "/tmp/r.json",
+                                          "--exchange",     "minimum",
+                                          "--balance",      "auto",
+                                          "--voxelizer",    "exact",
+                                          "--compute",      "mean,variance",
+                                          "--threads",      "3",
+                                          "--interleave",   "2x4",
+                                          "--memory",       "12",
+                                          "--snr",          "40.5",
+                                          "--seed",         "9",
+                                          "--phases-apart", "--keep-cache"};
   EXPECT_EQ(engine_words(options, "/tmp/r.json"), expected);
 }
 
