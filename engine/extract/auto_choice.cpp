@@ -221,6 +221,7 @@ class Decision {
         situation_.faces.size(), all_voxels_ / kMillion, situation_.grid.ranks(), situation_.options.threads,
         rates_.cores);
     if (const Candidate* other = other_than(*taken)) {
+      if (taken->seconds.total > 0) chosen.margin = other->seconds.total / taken->seconds.total;
       chosen.reason += fmt::format("; {} with {} {:.3g} ms", other->exchange, other->balance,
                                    kMilli * other->seconds.total);
     }
@@ -306,22 +307,29 @@ Chosen AutoChoice::decide(const comm::RankGrid& grid, std::span<const Face> face
   const Situation situation{grid, faces, options, cached_, comparable ? &last_->chosen : nullptr};
   const Chosen chosen = choose(situation, rates_.value_or(MachineRates{}));
   // A few faces between two full extractions are no reason to forget what those found.
-  if (!last_ || faces.size() >= kFewFaces || last_->faces < kFewFaces)
-    last_ = Memory{options, count, voxels, cached_, chosen, 0};
+  if (!last_ || faces.size() >= kFewFaces || last_->faces < kFewFaces) {
+    constexpr int kPatience = 2;
+    constexpr int kMostPatience = 1 << 20;
+    const bool same =
+        comparable && last_->chosen.exchange == chosen.exchange && last_->chosen.balance == chosen.balance;
+    const bool in_vain = same && last_->wrong >= last_->patience;
+    const int patience = in_vain ? std::min(kMostPatience, 2 * last_->patience) : kPatience;
+    last_ = Memory{options, count, voxels, cached_, chosen, 0, patience};
+  }
   Chosen fresh = chosen;
   fresh.is_new = true;
   return fresh;
 }
 
 bool AutoChoice::holds(const Options& options, double faces, double voxels) const {
-  constexpr double kChange = 0.1;
+  constexpr double kChange = 1.1;
+  constexpr double kMostChange = 1.5;
   constexpr double kCachedChange = 0.2;
-  constexpr int kWrong = 2;
-  const auto near = [](double now, double then) {
-    return now >= (1 - kChange) * then && now <= (1 + kChange) * then;
-  };
-  return last_ && last_->options == options && last_->wrong < kWrong && near(faces, last_->faces) &&
-         near(voxels, last_->voxels) && std::abs(cached_ - last_->cached) <= kCachedChange;
+  if (!last_ || last_->options != options || last_->wrong >= last_->patience) return false;
+  const double change = std::clamp(last_->chosen.margin, kChange, kMostChange);
+  const auto near = [&](double now, double then) { return now * change >= then && now <= change * then; };
+  return near(faces, last_->faces) && near(voxels, last_->voxels) &&
+         (change == kMostChange || std::abs(cached_ - last_->cached) <= kCachedChange);
 }
 
 void AutoChoice::learn(const Report& report) {
@@ -339,7 +347,7 @@ void AutoChoice::learn(const Report& report) {
     last_->wrong = 0;
     return;
   }
-  if (++last_->wrong == 2) correct(last_->chosen.predicted, real);
+  if (++last_->wrong == last_->patience) correct(last_->chosen.predicted, real);
 }
 
 void AutoChoice::correct(const Seconds& predicted, const Seconds& real) {

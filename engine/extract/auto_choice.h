@@ -27,6 +27,7 @@ struct Chosen {
   BalanceCosts costs = {};  // what the balancer is to weigh with
   int looked_at = 0;        // balancers that were run to see what they do
   bool is_new = false;      // not what is remembered from an extraction before
+  double margin = 1;        // what the next best was predicted to take, over this
 };
 
 // What decides, known alike on every rank.
@@ -55,8 +56,10 @@ class AutoChoice {
 
   // What to run for `options`. Where nothing says "auto" that is what they say. Else it is chosen anew only
   // where the situation has changed: other options, a tenth more or fewer faces or voxels, remote voxels
-  // that were kept meanwhile, or predictions that were wrong by more than a fifth twice in a row. Not
-  // collective, alike on every rank; after prepare(). Throws kUsage, std::bad_alloc.
+  // that were kept meanwhile, or predictions that were wrong by more than a fifth twice in a row. The farther
+  // off the next best was, up to half as much again, the more may change; and each time that the choice stays
+  // the same, twice as many wrong predictions are put up with. Not collective, alike on every rank; after
+  // prepare(). Throws kUsage, std::bad_alloc.
   Chosen decide(const comm::RankGrid& grid, std::span<const Face> faces, const Options& options);
 
   // What became of it: corrects the rates where they were wrong. `report` is alike on every rank, as far as
@@ -73,6 +76,7 @@ class AutoChoice {
     double cached = 0;
     Chosen chosen;
     int wrong = 0;  // predictions in a row that were
+    int patience;   // with them
   };
   bool holds(const Options& options, double faces, double voxels) const;
   void correct(const Seconds& predicted, const Seconds& real);

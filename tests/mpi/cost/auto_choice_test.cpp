@@ -94,5 +94,46 @@ TEST(AutoChoice, EveryRankComputesTheSameFromTheSame) {
   }
 }
 
+// How often predictions must be wrong until it is chosen anew.
+int wrong_ones(AutoChoice& automatic, const comm::RankGrid& grid, const std::vector<Face>& faces) {
+  const Options options;
+  for (int wrong = 0; wrong < 100; ++wrong) {
+    const Chosen chosen = automatic.decide(grid, faces, options);
+    if (chosen.is_new) return wrong;
+    Report report;
+    report.exchange = chosen.exchange;
+    report.seconds.voxelize = 1 + 1000 * chosen.predicted.total;
+    automatic.learn(report);
+  }
+  return -1;
+}
+
+TEST(AutoChoice, HoldsWhileTheSituationDoesAndGrowsPatient) {
+  const comm::Communicator world(MPI_COMM_WORLD);
+  if (world.size() == 1) return;  // nothing is predicted
+  const comm::RankGrid grid(kDims, world.size());
+  const Options options;
+  AutoChoice automatic;
+  world.collectively([&] { validate(options); });
+  automatic.prepare(world, options);
+  const std::vector<Face> faces = some_faces(300, 3);
+  EXPECT_TRUE(automatic.decide(grid, faces, options).is_new);
+  EXPECT_FALSE(automatic.decide(grid, faces, options).is_new);
+  EXPECT_TRUE(automatic.decide(grid, some_faces(900, 3), options).is_new);
+  const Chosen first = automatic.decide(grid, faces, options);
+  EXPECT_TRUE(first.is_new);
+  int patience = 2;
+  for (int round = 0; round < 3; ++round) {
+    EXPECT_EQ(wrong_ones(automatic, grid, faces), patience);
+    const Chosen again = automatic.decide(grid, faces, options);
+    const bool same = again.exchange == first.exchange && again.balance == first.balance;
+    if (!same) break;  // other rates may well make another choice
+    patience *= 2;
+  }
+  Options others;
+  others.compute = {"discontinuity"};
+  EXPECT_TRUE(automatic.decide(grid, faces, others).is_new);
+}
+
 }  // namespace
 }  // namespace footwall::extract

@@ -123,18 +123,20 @@ TEST(Model, RanksOnOneCoreTakeTurns) {
   const std::vector<RankAmounts> ranks = two_ranks();
   MachineRates rates = round_rates();
   rates.cores = 1;
-  EXPECT_NEAR(predicted("minimum", {.ranks = ranks}, rates).compute, 1400 * 3e-6 + 15 * 1e-4, kTiny);
+  EXPECT_NEAR(predicted("minimum", {.ranks = ranks}, rates).compute,
+              1400 * 3e-6 + 15 * 1e-4 + 5e-6 * (2 * 300 + 100 + 2 * 100 + 300), kTiny);
   // And threads help as far as there are cores.
   rates.cores = 4;
   EXPECT_NEAR(predicted("minimum", {.ranks = ranks, .threads = 2}, rates).compute,
-              (1000 * 3e-6 + 10 * 1e-4) / 2, kTiny);
+              (1000 * 3e-6 + 10 * 1e-4 + 5e-6 * (2 * 300 + 100)) / 2, kTiny);
 }
 
 TEST(Model, CachedVoxelsAreNotSentAgain) {
   const std::vector<RankAmounts> ranks = two_ranks();
   const Seconds fresh = predicted("push", {.ranks = ranks}, round_rates());
   const Seconds cached = predicted("push", {.ranks = ranks, .cached = 0.75}, round_rates());
-  EXPECT_NEAR(fresh.exchange - cached.exchange, 0.75 * (4 * 300 * 1e-6 + 5e-6 * 400), kTiny);
+  EXPECT_NEAR(fresh.exchange - cached.exchange, 0.75 * 4 * 300 * 1e-6, kTiny);
+  EXPECT_NEAR(fresh.compute - cached.compute, 0.75 * 5e-6 * 400, kTiny);
 }
 
 TEST(Model, WholeFaceWorkCountsForEveryVoxelOfTheLoad) {
