@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "engine/extract/extract.h"
+#include "engine/extract/face_numbers.h"
 #include "storage/base/error.h"
 #include "storage/base/hash.h"
 
@@ -39,20 +40,15 @@ std::uint64_t checksum_of(std::span<const Face> faces, std::span<const FaceStati
   for (const std::size_t n : order_of(faces)) {
     const Face& face = faces[n];
     const FaceStatistics& s = statistics[n];
-    const std::array<std::uint64_t, 14> words{static_cast<std::uint64_t>(face.fault),
-                                              static_cast<std::uint64_t>(face.owner),
-                                              static_cast<std::uint64_t>(std::int64_t{face.n}),
-                                              static_cast<std::uint64_t>(s.count),
-                                              static_cast<std::uint64_t>(s.nulls),
-                                              static_cast<std::uint64_t>(s.outside),
-                                              bits(s.mean),
-                                              bits(s.variance),
-                                              bits(s.min),
-                                              bits(s.max),
-                                              bits(s.discontinuity),
-                                              bits(s.contrast),
-                                              bits(s.offset_voxels),
-                                              bits(s.offset_score)};
+    constexpr std::size_t kWhole = 6;  // words that are no doubles
+    std::array<std::uint64_t, kWhole + kFaceNumbers.size()> words{
+        static_cast<std::uint64_t>(face.fault),
+        static_cast<std::uint64_t>(face.owner),
+        static_cast<std::uint64_t>(std::int64_t{face.n}),
+        static_cast<std::uint64_t>(s.count),
+        static_cast<std::uint64_t>(s.nulls),
+        static_cast<std::uint64_t>(s.outside)};
+    for (std::size_t v = 0; v < kFaceNumbers.size(); ++v) words[kWhole + v] = bits(s.*kFaceNumbers[v].member);
     hasher.add(std::as_bytes(std::span(words)));
   }
   return hasher.value();

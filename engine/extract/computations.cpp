@@ -22,12 +22,12 @@ constexpr std::array kComputations{
                 true, false, 1, nullptr},
     Computation{"offset", "how far beside the face the discontinuity is highest, up to 8 voxels", "voxel",
                 true, false, 1, nullptr},
-    Computation{"filter", "the values of the face's voxels, band-passed or sharpened", "amplitude", true,
-                false, 0, &make_face_filter},
     Computation{"voxels", "the values of the voxels themselves, stored", "bytes", true, false, 0,
-                &make_voxels},
+                &make_voxels, true},
     Computation{"lot", "the voxels' lapped orthogonal transform, stored with --snr", "bytes", true, false, 0,
-                &make_lot}};
+                &make_lot, true},
+    Computation{"filter", "the values of the face's voxels, band-passed or sharpened", "amplitude", true,
+                false, 0, &make_face_filter, true}};
 
 }  // namespace
 

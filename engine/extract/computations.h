@@ -21,9 +21,12 @@ struct Computation {
   int halo;         // traces around a voxel that it looks at: 0 or 1
   // Null for one that folds. Throws kUsage for options that it cannot work with.
   std::unique_ptr<WholeFace> (*make)(const Options& options);
+  // Of one that does not fold: its bytes are a value of each voxel of the face, as VoxelReader (lot.h) reads
+  // them. The project keeps them with the run, and they can be exported; other bytes end in the part files.
+  bool holds_voxels = false;
 };
 
-// In the order in which tables print them.
+// In the order in which help lists them. Of several that hold voxels the first one is what an export writes.
 std::span<const Computation> computations();
 // Throws kUsage, listing the names, where there is none or it is not built.
 const Computation& computation(std::string_view name);

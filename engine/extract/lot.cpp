@@ -7,14 +7,13 @@
 #include <limits>
 
 #include "engine/extract/choice.h"
+#include "engine/extract/computations.h"
 #include "storage/base/error.h"
 
 namespace footwall::extract {
 namespace {
 
-constexpr std::string_view kLot = "lot";
-constexpr std::string_view kVoxels = "voxels";
-constexpr std::string_view kFilter = "filter";  // laid out as kVoxels, see face_filter.h
+constexpr std::string_view kLot = "lot";  // coded; all others are float32, as `voxels`
 
 // The angles along a row and down the columns of a face.
 lapped::Coding along_samples(const LotCoding& lot, const FaceRows& rows) {
@@ -157,7 +156,9 @@ void columns_of(const FaceRows& rows, lapped::Columns& columns) {
 }
 
 bool holds_voxels(std::string_view computation) {
-  return computation == kLot || computation == kVoxels || computation == kFilter;
+  const auto rows = computations();
+  return std::any_of(rows.begin(), rows.end(),
+                     [&](const Computation& row) { return row.holds_voxels && row.name == computation; });
 }
 
 VoxelReader::VoxelReader(std::string_view computation) : coded_(computation == kLot) {

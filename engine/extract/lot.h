@@ -19,8 +19,7 @@ struct LotCoding {
 };
 LotCoding lot_coding(const Options& options);
 
-// Whether the results of a computation are the values of a face's voxels, in some form: "lot", "voxels",
-// "filter".
+// Whether the results of a computation are the values of a face's voxels, in some form (computations.h).
 bool holds_voxels(std::string_view computation);
 
 // The values behind a face's bytes, in the canonical order of `rows`, as the voxelizer of the run gives them;

@@ -1,41 +1,24 @@
 // Vectors and 4x4 matrices of the scene frame: metres east (x), north (y), up (z) from the survey's centre.
 #pragma once
 #include <array>
-#include <cmath>
+
+#include "storage/survey/vector.h"
 
 namespace footwall::render {
+
+using Vec3 = survey::Vector3;
 
 struct Vec3f {
   float x = 0;
   float y = 0;
   float z = 0;
+
+  Vec3f() = default;
+  constexpr Vec3f(float x_, float y_, float z_) : x(x_), y(y_), z(z_) {}
+  explicit constexpr Vec3f(const Vec3& v)
+      : x(static_cast<float>(v.x)), y(static_cast<float>(v.y)), z(static_cast<float>(v.z)) {}
+  explicit constexpr operator Vec3() const { return {x, y, z}; }
 };
-
-struct Vec3 {
-  double x = 0;
-  double y = 0;
-  double z = 0;
-
-  Vec3() = default;
-  constexpr Vec3(double x_, double y_, double z_) : x(x_), y(y_), z(z_) {}
-  explicit constexpr Vec3(const Vec3f& v) : x(v.x), y(v.y), z(v.z) {}
-  explicit operator Vec3f() const {
-    return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
-  }
-  friend constexpr Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend constexpr Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend constexpr Vec3 operator*(const Vec3& a, double s) { return {a.x * s, a.y * s, a.z * s}; }
-};
-
-constexpr double dot(const Vec3& a, const Vec3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline double length(const Vec3& a) {
-  return std::sqrt(dot(a, a));
-}
 
 // Homogeneous clip coordinates, OpenGL's: inside where -w <= x, y, z <= w.
 struct Vec4 {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/extract/face_numbers.h"
 #include "storage/base/error.h"
 
 namespace footwall::session {
@@ -20,14 +21,11 @@ double number_from(const Json& json) {
 }  // namespace
 
 Json fault_summary(const extract::FaceStatistics& whole) {
-  return {{"count", whole.count},
-          {"nulls", whole.nulls},
-          {"outside", static_cast<int>(whole.outside)},
-          {"mean", number(whole.mean)},
-          {"variance", number(whole.variance)},
-          {"min", number(whole.min)},
-          {"max", number(whole.max)},
-          {"discontinuity", number(whole.discontinuity)}};
+  Json json{{"count", whole.count}, {"nulls", whole.nulls}, {"outside", static_cast<int>(whole.outside)}};
+  for (const extract::FaceNumber& each : extract::kFaceNumbers) {
+    if (each.of_faults) json[std::string(each.name)] = number(whole.*each.member);
+  }
+  return json;
 }
 
 extract::FaceStatistics fault_from_summary(const Json& json) {
@@ -38,11 +36,9 @@ extract::FaceStatistics fault_from_summary(const Json& json) {
     const int outside = json.at("outside").get<int>();
     if (outside < 0 || outside > 2) throw Error(ErrorCode::kFormat, "a fault is outside in no known way");
     whole.outside = static_cast<extract::Outside>(outside);
-    whole.mean = number_from(json.at("mean"));
-    whole.variance = number_from(json.at("variance"));
-    whole.min = number_from(json.at("min"));
-    whole.max = number_from(json.at("max"));
-    whole.discontinuity = number_from(json.at("discontinuity"));
+    for (const extract::FaceNumber& each : extract::kFaceNumbers) {
+      if (each.of_faults) whole.*each.member = number_from(json.at(std::string(each.name)));
+    }
   } catch (const Json::exception&) {
     throw Error(ErrorCode::kFormat, "these are no statistics of a fault");
   }

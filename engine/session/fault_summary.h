@@ -6,8 +6,8 @@
 
 namespace footwall::session {
 
-// {count, nulls, outside, mean, variance, min, max, discontinuity}; null = undefined. Numbers read back as
-// the same doubles.
+// {count, nulls, outside, ..}: further the numbers of faults in face_numbers.h; null = undefined. Numbers
+// read back as the same doubles.
 nlohmann::json fault_summary(const extract::FaceStatistics& whole);
 // Throws kFormat for anything else.
 extract::FaceStatistics fault_from_summary(const nlohmann::json& json);

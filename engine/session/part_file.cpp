@@ -1,5 +1,6 @@
 #include "engine/session/part_file.h"
 
+#include "engine/extract/face_numbers.h"
 #include "engine/session/fault_summary.h"
 #include "storage/base/error.h"
 #include "storage/base/hash.h"
@@ -17,21 +18,24 @@ constexpr const char* kNone = "none";
 using Ints = std::vector<std::int64_t>;
 using Numbers = std::vector<double>;
 
-constexpr std::array<const char*, 16> kValueNames{
-    "mean",          "variance",    "min",           "max",
-    "discontinuity", "contrast",    "offset_voxels", "offset_score",
-    "area",          "area_voxels", "dip",           "dip_azimuth",
-    "normal_i",      "normal_j",    "normal_k",      "metres_along_normal"};
+using extract::kFaceNumbers;
 
-std::array<double*, 16> fields(extract::FaceStatistics& s, extract::FaceGeometry& g) {
-  return {&s.mean,          &s.variance,    &s.min,           &s.max,
-          &s.discontinuity, &s.contrast,    &s.offset_voxels, &s.offset_score,
-          &g.area,          &g.area_voxels, &g.dip,           &g.dip_azimuth,
-          &g.normal_i,      &g.normal_j,    &g.normal_k,      &g.metres_along_normal};
-}
+struct Shape {
+  const char* name;
+  double extract::FaceGeometry::*member;
+};
+constexpr std::array kShapes{Shape{"area", &extract::FaceGeometry::area},
+                             Shape{"area_voxels", &extract::FaceGeometry::area_voxels},
+                             Shape{"dip", &extract::FaceGeometry::dip},
+                             Shape{"dip_azimuth", &extract::FaceGeometry::dip_azimuth},
+                             Shape{"normal_i", &extract::FaceGeometry::normal_i},
+                             Shape{"normal_j", &extract::FaceGeometry::normal_j},
+                             Shape{"normal_k", &extract::FaceGeometry::normal_k},
+                             Shape{"metres_along_normal", &extract::FaceGeometry::metres_along_normal}};
 
-enum Place : std::size_t { kOwner, kN, kVertices, kCount, kNulls, kOutside, kValues };
-constexpr std::size_t kBlobEnds = kValues + kValueNames.size();
+enum Place : std::size_t { kOwner, kN, kVertices, kCount, kNulls, kOutside, kNumbers };
+constexpr std::size_t kShape = kNumbers + kFaceNumbers.size();
+constexpr std::size_t kBlobEnds = kShape + kShapes.size();
 constexpr std::size_t kBlobs = kBlobEnds + 1;
 
 // The table of a part without its values: what is written first, and what is asked for when reading.
@@ -45,7 +49,9 @@ volume::ColumnTable empty_table() {
                    {"count", {}, Ints()},
                    {"nulls", {}, Ints()},
                    {"outside", {}, std::vector<std::uint8_t>()}};
-  for (const char* name : kValueNames) table.columns.push_back({name, {}, Numbers()});
+  for (const extract::FaceNumber& each : kFaceNumbers)
+    table.columns.push_back({std::string(each.name), {}, Numbers()});
+  for (const Shape& each : kShapes) table.columns.push_back({each.name, {}, Numbers()});
   table.columns.push_back({"blob_ends", {}, Ints(), true});
   table.columns.push_back({"blobs", {}, std::vector<std::uint8_t>(), true});
   return table;
@@ -117,8 +123,8 @@ void write_part(const Part& part, const std::filesystem::path& path) {
   table.rows = static_cast<std::int64_t>(part.faces.size());
   for (std::size_t f = 0; f < part.faces.size(); ++f) {
     const extract::Face& face = part.faces[f];
-    extract::FaceStatistics statistics = part.statistics[f];
-    extract::FaceGeometry geometry = part.geometry[f];
+    const extract::FaceStatistics& statistics = part.statistics[f];
+    const extract::FaceGeometry& geometry = part.geometry[f];
     column<std::int64_t>(table, kOwner).push_back(face.owner);
     column<std::int32_t>(table, kN).push_back(face.n);
     auto& vertices = column<std::int32_t>(table, kVertices);
@@ -126,8 +132,10 @@ void write_part(const Part& part, const std::filesystem::path& path) {
     column<std::int64_t>(table, kCount).push_back(statistics.count);
     column<std::int64_t>(table, kNulls).push_back(statistics.nulls);
     column<std::uint8_t>(table, kOutside).push_back(static_cast<std::uint8_t>(statistics.outside));
-    const auto values = fields(statistics, geometry);
-    for (std::size_t v = 0; v < values.size(); ++v) column<double>(table, kValues + v).push_back(*values[v]);
+    for (std::size_t v = 0; v < kFaceNumbers.size(); ++v)
+      column<double>(table, kNumbers + v).push_back(statistics.*kFaceNumbers[v].member);
+    for (std::size_t v = 0; v < kShapes.size(); ++v)
+      column<double>(table, kShape + v).push_back(geometry.*kShapes[v].member);
   }
   put_blobs(part.blobs, part.faces.size(), table);
   volume::write_column_file(table, path);
@@ -176,8 +184,10 @@ Part read_part(const std::filesystem::path& path) {
     const std::uint8_t outside = column<std::uint8_t>(table, kOutside)[f];
     if (outside > 2) throw odd;
     statistics.outside = static_cast<extract::Outside>(outside);
-    const auto values = fields(statistics, part.geometry[f]);
-    for (std::size_t v = 0; v < values.size(); ++v) *values[v] = column<double>(table, kValues + v)[f];
+    for (std::size_t v = 0; v < kFaceNumbers.size(); ++v)
+      statistics.*kFaceNumbers[v].member = column<double>(table, kNumbers + v)[f];
+    for (std::size_t v = 0; v < kShapes.size(); ++v)
+      part.geometry[f].*kShapes[v].member = column<double>(table, kShape + v)[f];
   }
   return part;
 }

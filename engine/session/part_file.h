@@ -4,10 +4,9 @@
 // JSON, fault_summary.h), check (hash64 of the columns as 16 hex digits), whole_face (the names of the
 // whole-face computations, comma separated, or "none"); one dataset of `faces` entries per column: owner
 // int64, n int32, vertices int32 [faces][3][3] (lattice i, j, k), count int64, nulls int64, outside uint8,
-// and float64 mean, variance, min, max, discontinuity, contrast, offset_voxels, offset_score, area,
-// area_voxels, dip, dip_azimuth, normal_i, normal_j, normal_k, metres_along_normal. NaN = undefined. Further,
-// for each of whole_face in turn, `faces` entries of blob_ends int64: where the bytes of each face end in
-// blobs uint8.
+// and float64 each of kFaceNumbers (engine/extract/face_numbers.h), area, area_voxels, dip, dip_azimuth,
+// normal_i, normal_j, normal_k, metres_along_normal. NaN = undefined. Further, for each of whole_face in
+// turn, `faces` entries of blob_ends int64: where the bytes of each face end in blobs uint8.
 #pragma once
 #include <filesystem>
 #include <string>

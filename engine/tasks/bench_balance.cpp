@@ -10,6 +10,7 @@
 #include "engine/extract/balance/balance.h"
 #include "engine/extract/balance/local.h"
 #include "engine/extract/balance/start.h"
+#include "engine/extract/registry.h"
 #include "engine/extract/replay/replay.h"
 #include "engine/verify/balance_by_pseudocode.h"
 #include "storage/base/error.h"
@@ -51,12 +52,14 @@ void check(const BenchBalanceOptions& options) {
   for (const std::string& text : options.strategies) {
     const Choice choice = extract::parse_choice(text);
     if (is_running(choice)) continue;
-    const auto rows = extract::balance_strategies();
-    if (std::none_of(rows.begin(), rows.end(), [&](const auto& row) { return row.name == choice.name; }))
-      throw Error(ErrorCode::kUsage, fmt::format("there is no balance '{}'", text),
-                  "choose among none, minimal, global, local, manhattan");
+    extract::find_row(extract::balance_rows(), "balance", text);
     extract::balance_strategy(choice.name).check(choice);
   }
+}
+
+// Those of seed 004; all others are replayed once, as they are.
+bool takes_threshold(std::string_view name) {
+  return name == "global" || name == "local" || name == "manhattan";
 }
 
 // The strategies of one grid, in the order in which they are printed.
@@ -68,7 +71,10 @@ std::vector<std::string> strategies_of(const BenchBalanceOptions& options, const
     taus.resize(static_cast<std::size_t>(std::max(0, grid.parts()[0] + grid.parts()[1] - 2)));
     std::iota(taus.begin(), taus.end(), 1);
   }
-  std::vector<std::string> all{"none", "minimal"};
+  std::vector<std::string> all;
+  for (const extract::BalanceStrategy& row : extract::balance_strategies()) {
+    if (row.name != "auto" && !takes_threshold(row.name)) all.emplace_back(row.name);
+  }
   for (const double delta : options.deltas) {
     const std::string d = text::shortest(std::floor(delta * mean_area));
     all.push_back("global=" + d);

@@ -17,6 +17,7 @@
 #include "engine/voxelize/registry.h"
 #include "engine/voxelize/simd.h"
 #include "storage/base/error.h"
+#include "storage/base/splitmix64.h"
 #include "storage/survey/lattice.h"
 
 namespace footwall::tasks {
@@ -31,20 +32,11 @@ constexpr std::size_t kCheckedFaces = 24;
 constexpr std::int64_t kCheckedCubes = 100'000;  // in the box that is checked of a face
 constexpr std::int64_t kWindow = 20;             // half its side around the middle of a large one
 
-std::uint64_t mixed(std::uint64_t z) {  // splitmix64
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
-
 class Numbers {
  public:
-  explicit Numbers(std::uint64_t seed) : state_(seed) {}
+  explicit Numbers(std::uint64_t seed) : numbers_(seed) {}
   // Uniform in [least, most).
-  double within(double least, double most) {
-    state_ += 0x9e3779b97f4a7c15u;
-    return least + (most - least) * static_cast<double>(mixed(state_) >> 11) * 0x1p-53;
-  }
+  double within(double least, double most) { return least + (most - least) * numbers_.unit(); }
   Vector direction() {
     const double z = within(-1, 1);
     const double angle = within(0, 2 * std::numbers::pi);
@@ -53,7 +45,7 @@ class Numbers {
   }
 
  private:
-  std::uint64_t state_;
+  SplitMix64 numbers_;
 };
 
 float value_of(const Index& p) {

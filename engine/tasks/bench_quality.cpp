@@ -17,24 +17,16 @@
 #include "engine/voxelize/registry.h"
 #include "storage/base/error.h"
 #include "storage/survey/lattice.h"
+#include "storage/survey/vector.h"
 
 namespace footwall::tasks {
 namespace {
 
-using Vector = std::array<double, 3>;
+using Vector = survey::Vector3;  // in index space, in voxels
 
-Vector operator-(const Vector& a, const Vector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
 // a + t b
 Vector moved(const Vector& a, double t, const Vector& b) {
-  return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]};
-}
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Vector& a, const Vector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  return {a.x + t * b.x, a.y + t * b.y, a.z + t * b.z};
 }
 Vector unit(const Vector& a) {
   return moved({0, 0, 0}, 1 / std::sqrt(dot(a, a)), a);
@@ -91,7 +83,7 @@ class Truth {
       const double along_b = (n == 2 ? 2.0 : -1.0) / 3 * leg;
       const auto corner = on_surface(moved(moved(centre, along_a, a), along_b, b), normal, leg / 2);
       if (!corner) return std::nullopt;
-      face[n] = lattice.from_index({(*corner)[0], (*corner)[1], (*corner)[2]});
+      face[n] = lattice.from_index({corner->x, corner->y, corner->z});
     }
     return face;
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "engine/extract/computations.h"
 #include "engine/extract/face_rows.h"
 #include "engine/extract/lot.h"
 #include "engine/tasks/face_tables.h"
@@ -47,11 +48,11 @@ Parameters parameters_of(const project::FaceVoxels& kept, std::int64_t run) {
   }
 }
 
-// What a run has of a fault: the exact values before coded ones, these before filtered ones.
+// What a run has of a fault: the first in the order of the registry, so exact values before coded ones.
 const project::FaceVoxels* best_of(const std::vector<project::FaceVoxels>& all) {
-  for (const char* codec : {"voxels", "lot", "filter"}) {
+  for (const extract::Computation& row : extract::computations()) {
     const auto found = std::find_if(all.begin(), all.end(),
-                                    [&](const project::FaceVoxels& each) { return each.codec == codec; });
+                                    [&](const project::FaceVoxels& each) { return each.codec == row.name; });
     if (found != all.end()) return &*found;
   }
   return nullptr;

@@ -20,7 +20,9 @@ struct VoxelsOfFace {
 
 struct FaceVoxelsRead {
   std::int64_t run = 0;
-  std::string codec;  // "voxels": the values themselves; "lot": within the signal-to-noise ratio of the run
+  // The computation that made them: "voxels" (the values themselves), "lot" (within the signal-to-noise ratio
+  // of the run), "filter" ..
+  std::string codec;
   std::int64_t faces = 0;
   std::int64_t voxels = 0;
 };

@@ -6,6 +6,7 @@
 #include "storage/base/error.h"
 #include "storage/base/text.h"
 #include "storage/formats/nrrd.h"
+#include "storage/survey/units.h"
 
 namespace footwall::formats::nrrd {
 namespace {
@@ -21,7 +22,7 @@ Unit unit_from(std::string_view name) {
   if (name == "km") return {1000, 0};
   if (name == "cm") return {0.01, 0};
   if (name == "mm" || name == "millimeter" || name == "millimetre") return {0.001, 0};
-  if (name == "ft" || name == "feet" || name == "foot") return {0.3048, 0};
+  if (name == "ft" || name == "feet" || name == "foot") return {survey::kMetresPerFoot, 0};
   if (name == "ms") return {0, 1};
   if (name == "s") return {0, 1000};
   if (name == "us") return {0, 0.001};
@@ -29,7 +30,7 @@ Unit unit_from(std::string_view name) {
 }
 
 double metres_of(survey::VerticalUnit unit) {
-  return unit == survey::VerticalUnit::kFoot ? 0.3048 : 1;
+  return unit == survey::VerticalUnit::kFoot ? survey::kMetresPerFoot : 1;
 }
 
 [[noreturn]] void contradiction(const std::string& option, const std::string& given,

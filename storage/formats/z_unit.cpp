@@ -7,6 +7,7 @@
 #include "storage/base/error.h"
 #include "storage/base/text.h"
 #include "storage/formats/detail/letters.h"
+#include "storage/survey/units.h"
 
 namespace footwall::formats {
 namespace {
@@ -17,7 +18,7 @@ struct Unit {
   double size;  // in milliseconds or metres
 };
 constexpr std::array<Unit, 4> kUnits{
-    {{"ms", true, 1}, {"s", true, 1000}, {"m", false, 1}, {"ft", false, 0.3048}}};
+    {{"ms", true, 1}, {"s", true, 1000}, {"m", false, 1}, {"ft", false, survey::kMetresPerFoot}}};
 
 struct Spelling {
   std::string_view word;

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "storage/base/error.h"
+#include "storage/survey/units.h"
 
 namespace footwall::survey {
 namespace {
 
-constexpr double kMetresPerFoot = 0.3048;
 constexpr std::int64_t kMostVoxelsOnAxis = std::int64_t{1} << 23;
 
 [[noreturn]] void refuse(const std::string& why) {

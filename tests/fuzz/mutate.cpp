@@ -6,26 +6,16 @@
 #include <string_view>
 #include <vector>
 
+#include "storage/base/splitmix64.h"
+
 namespace footwall::fuzz {
 namespace {
 
-// splitmix64 (Steele, Lea, Flood, 2014): small, and alike everywhere, which the standard library's
-// distributions are not.
-class Random {
+class Random : public SplitMix64 {
  public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t next() {
-    state_ += 0x9e3779b97f4a7c15U;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31);
-  }
+  using SplitMix64::SplitMix64;
   // 0 <= result < end; 0 for an empty range.
   std::size_t below(std::size_t end) { return end == 0 ? 0 : static_cast<std::size_t>(next() % end); }
-
- private:
-  std::uint64_t state_;
 };
 
 constexpr std::array<std::uint32_t, 12> kEdges{0,      1,      2,      0x7f,       0x80,       0xff,

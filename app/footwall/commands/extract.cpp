@@ -21,7 +21,7 @@ namespace {
 
 struct Options {
   std::string project, compute, job_folder, pillars;
-  std::optional<double> memory_mb;
+  std::optional<double> memory_mib;
   bool dry_run = false;
   bool with_volume = false;
   EngineOptions engine;
@@ -45,16 +45,24 @@ std::array<int, 2> pillars_from(const std::string& text) {
   return pillars;
 }
 
+// An option that a computation alone looks at would change nothing without it.
+void refuse_without(const extract::Options& engine, const char* option, const char* computation) {
+  if (std::find(engine.compute.begin(), engine.compute.end(), computation) != engine.compute.end()) return;
+  throw Error(ErrorCode::kUsage, fmt::format("{} is about --compute {}", option, computation),
+              fmt::format("add {} to --compute", computation));
+}
+
 void check(Options& options) {
   options.how.launch = options.engine.launch();
   if (!options.pillars.empty()) options.how.engine.pillars = pillars_from(options.pillars);
-  if (options.memory_mb) {
+  if (options.memory_mib) {
     constexpr double kMost = 1e9;
-    if (!(*options.memory_mb >= 0 && *options.memory_mb <= kMost)) {
-      throw Error(ErrorCode::kUsage, fmt::format("--memory {} is no amount of memory", *options.memory_mb),
-                  "give megabytes, 0 to keep nothing");
+    constexpr double kMiB = 1 << 20;
+    if (!(*options.memory_mib >= 0 && *options.memory_mib <= kMost)) {
+      throw Error(ErrorCode::kUsage, fmt::format("--memory {} is no amount of memory", *options.memory_mib),
+                  "give MiB, 0 to keep nothing");
     }
-    options.how.engine.cache_bytes = static_cast<std::int64_t>(*options.memory_mb * 1e6);
+    options.how.engine.cache_bytes = static_cast<std::int64_t>(*options.memory_mib * kMiB);
   }
   const double snr = options.how.engine.snr;
   if (!(snr >= 0 && std::isfinite(snr))) {
@@ -64,10 +72,10 @@ void check(Options& options) {
     throw Error(ErrorCode::kUsage, fmt::format("--velocity {} is no velocity", *options.how.velocity),
                 "give a number above 0, in m/s");
   }
-  const std::vector<std::string>& compute = options.how.engine.compute;
-  if (options.how.engine.snr != 0 && std::find(compute.begin(), compute.end(), "lot") == compute.end()) {
-    throw Error(ErrorCode::kUsage, "--snr is about --compute lot", "add lot to --compute");
-  }
+  const extract::Options& engine = options.how.engine;
+  if (engine.snr != 0) refuse_without(engine, "--snr", "lot");
+  if (engine.lot_order != extract::Options{}.lot_order) refuse_without(engine, "--lot-order", "lot");
+  if (engine.filter != extract::Options{}.filter) refuse_without(engine, "--filter", "filter");
   if (options.dry_run && !options.job_folder.empty()) {
     throw Error(ErrorCode::kUsage, "--dry-run changes nothing, so it cannot go with --write-job",
                 "leave one of them out; --write-job prints the same forecast");
@@ -224,8 +232,8 @@ void add_extract(console::Program& program) {
   command->add_option("--pillars", options->pillars,
                       "AxB: cut each rank's part into A x B pillars that lie between those of others, which "
                       "evens out crowded surveys (default 1x1)");
-  command->add_option("--memory", options->memory_mb,
-                      "MB of other ranks' voxels that a rank keeps, where voxels move (default 1074)");
+  command->add_option("--memory", options->memory_mib,
+                      "MiB of other ranks' voxels that a rank keeps, where voxels move (default 1024)");
   command->add_option(
       "--snr", how.engine.snr,
       "dB, for --compute lot: keeps the voxels, within this signal-to-noise ratio (1 to 100)");

@@ -71,15 +71,19 @@ std::string faults_text(const console::Json& rows) {
   return text;
 }
 
-std::string ranked_text(const tasks::FaceTables& faces, const std::vector<tasks::RankedFace>& ranked) {
-  const std::vector<const char*> columns{"contrast", "discontinuity", "variance", "count", "dip"};
+// What the faces were ranked by comes first.
+std::string ranked_text(const tasks::FaceTables& faces, const std::vector<tasks::RankedFace>& ranked,
+                        const std::string& ranked_by) {
+  std::vector<std::string> columns{"contrast", "discontinuity", "variance", "count", "dip"};
+  if (std::find(columns.begin(), columns.end(), ranked_by) == columns.end())
+    columns.insert(columns.begin(), ranked_by);
   std::string text = fmt::format("{:<16} {:<24}", "fault", "face");
-  for (const char* column : columns) text += fmt::format(" {:>13}", column);
+  for (const std::string& column : columns) text += fmt::format(" {:>13}", column);
   text += "\n";
   for (const tasks::RankedFace& one : ranked) {
     const formats::MeshTable& table = faces.tables[one.table];
     text += fmt::format("{:<16} {:<24}", table.fault, table.face_ids[one.face]);
-    for (const char* column : columns) {
+    for (const std::string& column : columns) {
       const auto known = std::find_if(table.statistics.begin(), table.statistics.end(),
                                       [&](const auto& statistic) { return statistic.name == column; });
       const double value = known == table.statistics.end() ? extract::kUndefined : known->values[one.face];
@@ -119,9 +123,16 @@ console::Output run(const Options& options) {
   if (!statistic.empty()) {
     const auto ranked = tasks::ranked_faces(faces, statistic, lowest, options.top);
     output.json["faces"] = ranked_json(faces, ranked);
+    if (ranked.empty()) {
+      output.text += fmt::format(
+          "no face of at least 30 samples has a value of {0}: too small, not computed in this run (extract "
+          "--compute {0}), or without --velocity in a time survey\n",
+          statistic);
+      return output;
+    }
     output.text += fmt::format("the {} faces of {} {} (of those with at least 30 samples)\n", ranked.size(),
                                lowest ? "lowest" : "highest", statistic);
-    output.text += ranked_text(faces, ranked);
+    output.text += ranked_text(faces, ranked, statistic);
   }
   return output;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "storage/formats/segy/survey_scan.h"
+#include "storage/survey/units.h"
 
 namespace footwall::commands {
 namespace {
@@ -14,8 +15,6 @@ using formats::segy::Inspection;
 using formats::segy::LineCandidate;
 using formats::segy::Report;
 using formats::segy::text_of;
-
-constexpr double kMetresPerFoot = 0.3048;
 
 Json axis_json(const std::optional<survey::LineAxis>& axis) {
   if (!axis) return nullptr;
@@ -85,7 +84,7 @@ Json bytes_json(const Report& report) {
 
 Json segy_json(const Inspection& found) {
   const Report& report = found.report;
-  const double metres = report.horizontal_unit == "ft" ? kMetresPerFoot : 1;
+  const double metres = report.horizontal_unit == "ft" ? survey::kMetresPerFoot : 1;
   const bool lines = found.inlines.has_value();
   const bool mapped = std::isfinite(report.residual);
   Json facts = {

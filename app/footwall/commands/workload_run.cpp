@@ -1,5 +1,7 @@
 // footwall workload run: runs a script on the engine and tells what it took.
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <memory>
 
 #include "app/footwall/commands/launch_options.h"
@@ -54,6 +56,9 @@ void check(Options& options) {
   for (const std::string_view name : text::split(options.compute, ',')) {
     if (!name.empty()) engine.compute.emplace_back(name);
   }
+  if (engine.snr != 0 &&
+      std::find(engine.compute.begin(), engine.compute.end(), "lot") == engine.compute.end())
+    throw Error(ErrorCode::kUsage, "--snr is about --compute lot", "add lot to --compute");
 }
 
 // As the seed's program prints it (appendix B.1.2), with the phases below.

@@ -19,7 +19,7 @@ constexpr double kSqrt3 = 1.7320508075688772;
 constexpr std::array<double, 5> kBends{0.2, 0.4, 0.8, 3.0, 100.0};
 
 IndexPoint index_point(const Vector& v) {
-  return {v.i, v.j, v.k};
+  return {v.x, v.y, v.z};
 }
 
 double outside(double x, double low, double high) {
@@ -45,7 +45,7 @@ double Grower::next_area() {
 }
 
 double Grower::beyond(const Vector& p) const {
-  const Vector v{outside(p.i, low_.i, high_.i), outside(p.j, low_.j, high_.j), outside(p.k, low_.k, high_.k)};
+  const Vector v{outside(p.x, low_.x, high_.x), outside(p.y, low_.y, high_.y), outside(p.z, low_.z, high_.z)};
   return dot(v, v);
 }
 
@@ -54,8 +54,8 @@ std::array<Vector, 3> Grower::first_triangle(double area) {
   std::array<Vector, 3> best{};
   double least = std::numeric_limits<double>::infinity();
   for (int n = 0; n < kFirstTries && least > 0; ++n) {
-    const Vector centre{random_.between(low_.i, high_.i), random_.between(low_.j, high_.j),
-                        random_.between(low_.k, high_.k)};
+    const Vector centre{random_.between(low_.x, high_.x), random_.between(low_.y, high_.y),
+                        random_.between(low_.z, high_.z)};
     const Vector u = random_.direction();
     Vector v = cross(u, random_.direction());
     if (length(v) < 0.1) continue;

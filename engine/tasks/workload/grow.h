@@ -8,8 +8,15 @@
 #include "engine/tasks/workload/random.h"
 #include "storage/survey/box.h"
 #include "storage/survey/lattice.h"
+#include "storage/survey/vector.h"
 
 namespace footwall::tasks {
+
+using Vector = survey::Vector3;  // in index space, in voxels
+
+inline Vector at(const survey::IndexPoint& p) {
+  return {p.i, p.j, p.k};
+}
 
 class Grower {
  public:

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <random>
 
-#include "engine/tasks/workload/vector.h"
+#include "storage/survey/vector.h"
 
 namespace footwall::tasks {
 
@@ -18,9 +18,9 @@ class Random {
   // In [0, limit); limit > 0.
   std::size_t below(std::size_t limit) { return static_cast<std::size_t>(engine_() % limit); }
   // A direction, all alike: from a point in the ball, found by trying.
-  Vector direction() {
+  survey::Vector3 direction() {
     for (;;) {
-      const Vector v{between(-1, 1), between(-1, 1), between(-1, 1)};
+      const survey::Vector3 v{between(-1, 1), between(-1, 1), between(-1, 1)};
       const double square = dot(v, v);
       if (square > 1e-6 && square <= 1) return v * (1 / std::sqrt(square));
     }

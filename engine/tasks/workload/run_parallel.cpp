@@ -156,7 +156,9 @@ class Runner {
       throw Error(ErrorCode::kInvalid,
                   fmt::format("repeat {}, operation {} after {} EXTRACT-ALLs: {}", repeat + 1,
                               refusal.operation + 1, step, refusal.reason.message()),
-                  refusal.reason.hint());
+                  refusal.reason.hint().empty()
+                      ? "mend the script: docs/workloads.md describes the operations"
+                      : refusal.reason.hint());
     });
   }
 

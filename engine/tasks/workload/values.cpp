@@ -1,16 +1,12 @@
 #include "engine/tasks/workload/values.h"
 
 #include "storage/base/error.h"
+#include "storage/base/splitmix64.h"
 
 namespace footwall::tasks {
 
-// Based on: Steele, Lea, Flood, Fast splittable pseudorandom number generators, 2014 (the finalizer of
-// SplitMix64 over a counter).
 float hashed_value(std::uint64_t index, std::uint64_t seed) {
-  std::uint64_t x = (index + 1) * 0x9e3779b97f4a7c15U + seed * 0xd1342543de82ef95U;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-  x ^= x >> 31;
+  const std::uint64_t x = mixed((index + 1) * kGolden + seed * 0xd1342543de82ef95U);
   return static_cast<float>(static_cast<std::int32_t>(x >> 40)) * 0x1p-23F - 1.0F;
 }
 

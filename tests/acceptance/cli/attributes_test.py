@@ -51,6 +51,9 @@ class Attributes(FootwallTest):
         rows = faces(self.path("time.csv"))
         self.assertFalse(any(row["offset"] for row in rows))
         self.assertTrue(any(row["offset_voxels"] for row in rows))
+        # A ranking has the number that it goes by; where no face has one it says what may be missing.
+        self.assertIn(" offset_voxels ", self.start("faces", project, "--highest", "offset_voxels").stdout)
+        self.assertIn("--velocity", self.start("faces", project, "--highest", "offset").stdout)
 
     def test_whole_faults_count_each_voxel_once(self):
         project = self.synthetic()

@@ -60,6 +60,17 @@ class Documents(unittest.TestCase):
             offered = set(re.findall(r"(--[a-z0-9-]+)", done.stdout)) - {"--help", "--json", "--quiet"}
             self.assertEqual(documented - {"--json", "--quiet"}, offered, f"options of footwall {name}")
 
+    def test_every_name_of_extract_is_explained(self):
+        """Each name that `extract --help` lists (a row of a registry) stands between backticks in the page of its family."""
+        words = subprocess.run([str(BIN / "footwall"), "extract", "--help"], capture_output=True, text=True).stdout
+        for option, pages in (("--balance", ["balancing.md"]), ("--exchange", ["exchange-strategies.md"]),
+                              ("--voxelizer", ["voxelizers.md"]), ("--compute", ["statistics.md", "lapped-transform.md"])):
+            text = "".join((SOURCE / "docs" / page).read_text() for page in pages)
+            said = {word for code in re.findall(r"`([^`\n]+)`", text) for word in re.findall(r"[a-z]+", code)}
+            names = re.search(rf"{option} TEXT[^:]*: ([a-z, ]+) \(", words).group(1).split(", ")
+            self.assertGreater(len(names), 2, option)
+            self.assertEqual(set(names) - said, set(), f"names of {option} that none of {pages} explains")
+
 
 if __name__ == "__main__":
     unittest.main()

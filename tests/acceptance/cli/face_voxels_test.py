@@ -106,7 +106,9 @@ class FaceVoxels(FootwallTest):
         self.assertIn("push", error["hint"])
         self.refused(2, "extract", self.project, "--compute", "lot", "--snr", 300)
         self.refused(2, "extract", self.project, "--compute", "lot", "--snr", 30, "--lot-order", "3d")
-        self.refused(2, "extract", self.project, "--compute", "variance", "--snr", 30)
+        for option in (("--snr", 30), ("--lot-order", "1d"), ("--filter", "sharpen=1,8")):
+            error = self.refused(2, "extract", self.project, "--compute", "variance", *option)
+            self.assertIn("--compute", error["hint"])
         self.footwall("extract", self.project, "--compute", "variance,lot")  # the transform alone
         error = self.refused(1, "export", self.project, "--face-voxels", "v.csv")
         self.assertIn("--compute lot --snr", error["hint"])

@@ -46,6 +46,8 @@ class Workload(FootwallTest):
         error = self.refused(1, "workload", "run", "bad.fww", "--ranks", 2)
         self.assertEqual(error["code"], "invalid")
         self.assertIn("there is no mesh 0", error["message"])
+        self.assertIn("docs/workloads.md", error["hint"])
+        self.assertIn("lot", self.refused(2, "workload", "run", "bad.fww", "--snr", 30)["hint"])
         self.refused(2, "workload", "run", "bad.fww", "--balance", "fair")
         self.refused(2, "workload", "run", "bad.fww", "--interleave", "2")
 

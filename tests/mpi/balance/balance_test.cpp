@@ -1,6 +1,7 @@
 // Who is responsible changes no number.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/extract/balance/balance.h"
@@ -25,7 +26,16 @@ ReadBox reader() {
   };
 }
 
-class BalancedExtract : public testing::TestWithParam<const char*> {};
+// Every row, and those with parameters that take other ways. `auto` is mpi_cost's.
+std::vector<std::string> all_balancers() {
+  std::vector<std::string> all{"global=40", "local=0,cache", "manhattan=40,1"};
+  for (const BalanceStrategy& row : balance_strategies()) {
+    if (row.name != "auto") all.emplace_back(row.name);
+  }
+  return all;
+}
+
+class BalancedExtract : public testing::TestWithParam<std::string> {};
 
 TEST_P(BalancedExtract, GivesTheStatisticsOfNone) {
   const comm::Communicator world(MPI_COMM_WORLD);
@@ -52,9 +62,13 @@ TEST_P(BalancedExtract, GivesTheStatisticsOfNone) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Strategies, BalancedExtract,
-                         testing::Values("minimal", "global", "global=40", "local", "local=0,cache",
-                                         "manhattan", "manhattan=40,1"));
+INSTANTIATE_TEST_SUITE_P(Strategies, BalancedExtract, testing::ValuesIn(all_balancers()),
+                         [](const auto& chosen) {
+                           std::string name = chosen.param;
+                           std::replace_if(
+                               name.begin(), name.end(), [](char c) { return c == '=' || c == ','; }, '_');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace footwall::extract

@@ -9,6 +9,7 @@
 
 #include "engine/extract/exchange/exchange.h"
 #include "engine/extract/extract.h"
+#include "engine/extract/face_numbers.h"
 #include "engine/verify/contrast_by_definition.h"
 
 namespace footwall::extract {
@@ -197,11 +198,9 @@ TEST_P(WholeFaults, CountEachVoxelOnce) {
       EXPECT_EQ(have.statistics.count, want.count);
       EXPECT_EQ(have.statistics.nulls, want.nulls);
       EXPECT_EQ(have.statistics.outside, want.outside);
-      EXPECT_EQ(bits(have.statistics.mean), bits(want.mean));
-      EXPECT_EQ(bits(have.statistics.variance), bits(want.variance));
-      EXPECT_EQ(bits(have.statistics.min), bits(want.min));
-      EXPECT_EQ(bits(have.statistics.max), bits(want.max));
-      EXPECT_EQ(bits(have.statistics.discontinuity), bits(want.discontinuity));
+      for (const FaceNumber& each : kFaceNumbers) {
+        EXPECT_EQ(bits(have.statistics.*each.member), bits(want.*each.member)) << each.name;
+      }
     }
   }
 }

@@ -1,11 +1,13 @@
 // A survey of random values and random faces, the same on every rank: the generator's numbers are the
 // standard's, the rest is integer arithmetic.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
 
 #include "engine/extract/extract.h"
+#include "engine/extract/face_numbers.h"
 
 namespace footwall::extract {
 
@@ -62,9 +64,9 @@ inline std::uint64_t bits_of(double value) {
 
 inline bool same_bits(const FaceStatistics& a, const FaceStatistics& b) {
   return a.count == b.count && a.nulls == b.nulls && a.outside == b.outside &&
-         bits_of(a.mean) == bits_of(b.mean) && bits_of(a.variance) == bits_of(b.variance) &&
-         bits_of(a.min) == bits_of(b.min) && bits_of(a.max) == bits_of(b.max) &&
-         bits_of(a.discontinuity) == bits_of(b.discontinuity);
+         std::all_of(kFaceNumbers.begin(), kFaceNumbers.end(), [&](const FaceNumber& each) {
+           return bits_of(a.*each.member) == bits_of(b.*each.member);
+         });
 }
 
 }  // namespace footwall::extract

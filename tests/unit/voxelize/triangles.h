@@ -3,29 +3,19 @@
 #include <cstdint>
 #include <string>
 
+#include "storage/base/splitmix64.h"
 #include "storage/survey/points.h"
 
 namespace footwall::voxelize {
 
-// splitmix64: the standard library's distributions differ between implementations.
-class Numbers {
+class Numbers : public SplitMix64 {
  public:
-  explicit Numbers(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t next() {
-    state_ += 0x9e3779b97f4a7c15u;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+  using SplitMix64::SplitMix64;
   // least..most, both included.
   std::int32_t within(std::int64_t least, std::int64_t most) {
     const auto range = static_cast<std::uint64_t>(most - least + 1);
     return static_cast<std::int32_t>(least + static_cast<std::int64_t>(next() % range));
   }
-
- private:
-  std::uint64_t state_;
 };
 
 enum class Kind { kAny, kInteger, kHalfInteger, kHalves, kAxisAligned, kSliver, kSegment, kPoint, kTiny };
