@@ -86,7 +86,7 @@ TEST_F(Attribute, IsTheDefinitionForAnyNumberOfRanks) {
 TEST_F(Attribute, TroubleIsTheSameErrorOnAllRanksAndLeavesNoFile) {
   EXPECT_EQ(code_of(job_with([&](AttributeJob& job) { job.volume = path / "gone.h5"; })),
             ErrorCode::kNotFound);
-  // Only rank 0 writes, so only it sees this.
+  // Only rank 0 makes the file, so only it sees this.
   EXPECT_EQ(code_of(job_with([&](AttributeJob& job) { job.output = path / "no such folder" / "made.h5"; })),
             ErrorCode::kNotFound);
   const JobContext cancelled;
