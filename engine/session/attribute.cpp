@@ -2,6 +2,8 @@
 
 #include <omp.h>
 
+#include <algorithm>
+#include <deque>
 #include <nlohmann/json.hpp>
 
 #include "storage/base/hash.h"
@@ -30,18 +32,54 @@ class Maker {
 
   const volume::VolumeInfo& info() const { return reader_.info(); }
 
-  // Not collective.
+  // Not collective. Blocks come in the writer's order: what the next one needs, too, is read once.
   void make(const survey::Box& block, std::span<float> out) {
-    const survey::Box needed = extract::needed_for(block, window_, reader_.info().dims);
+    const survey::Box needed = extract::needed_for(block, window_, info().dims);
     values_.resize(static_cast<std::size_t>(needed.count()));
-    reader_.read_independent(needed, values_);
+    const std::int64_t width = volume::default_chunk(info().dims)[1];
+    const bool goes_on = !slices_.empty() && slices_.front().box.lo[0] == needed.lo[0] &&
+                         slices_.front().box.hi[0] == needed.hi[0] &&
+                         slices_.front().box.lo[1] <= needed.lo[1];
+    if (!goes_on) slices_.clear();
+    while (!slices_.empty() && slices_.front().box.hi[1] <= needed.lo[1]) slices_.pop_front();
+    std::int64_t next = slices_.empty() ? needed.lo[1] / width * width : slices_.back().box.hi[1];
+    for (; next < needed.hi[1]; next = slices_.back().box.hi[1]) read_slice(needed, next, next + width);
+    for (const Slice& slice : slices_) copy_part(slice, needed);
     kernel_.compute(block, values_, out);
   }
 
  private:
+  // Values of a range of crosslines that ends where chunks of the source do, if they are as wide as ours.
+  struct Slice {
+    survey::Box box;
+    std::vector<float> values;
+  };
+
+  void read_slice(const survey::Box& needed, std::int64_t first, std::int64_t end) {
+    Slice slice;
+    slice.box = needed;
+    slice.box.lo[1] = first;
+    slice.box.hi[1] = std::min(end, info().dims[1]);
+    slice.values.resize(static_cast<std::size_t>(slice.box.count()));
+    reader_.read_independent(slice.box, slice.values);
+    slices_.push_back(std::move(slice));
+  }
+
+  void copy_part(const Slice& slice, const survey::Box& needed) {
+    const survey::Box part = survey::intersection(slice.box, needed);
+    const std::int64_t samples = needed.size(2);
+    for (std::int64_t i = 0; i < needed.size(0); ++i) {
+      const std::int64_t from = i * slice.box.size(1) + part.lo[1] - slice.box.lo[1];
+      const std::int64_t to = i * needed.size(1) + part.lo[1] - needed.lo[1];
+      std::copy_n(slice.values.data() + from * samples, part.size(1) * samples,
+                  values_.data() + to * samples);
+    }
+  }
+
   volume::ParallelVolumeReader reader_;
   extract::Window window_;
   extract::DiscontinuityVolume kernel_;
+  std::deque<Slice> slices_;  // one after the other
   std::vector<float> values_;
 };
 

@@ -25,8 +25,8 @@ void write_attribute_job(const AttributeJob& job, const std::filesystem::path& p
 AttributeJob read_attribute_job(const std::filesystem::path& path);
 
 // Collective; the same Error on every rank, and then no file: what reading and writing volumes throws,
-// kCancelled on any rank. Each rank holds what the writer does, and what is needed of the old volume for a
-// block.
+// kCancelled on any rank. Each rank holds what the writer does, and of the old volume at most
+// four times what is needed for a block.
 void run_attribute(const comm::Communicator& parent, const std::filesystem::path& job_path,
                    const JobContext& context);
 
