@@ -20,9 +20,10 @@ namespace footwall::volume {
 // of the min/max pyramid, and the checksum, which is the hash of all chunks' hashes. What rank 0 gets for
 // them is some 0.6 % of the voxels' bytes, at the end, a row at a time.
 //
-// Memory of a rank: that of write_volume(), and until the end 9/512 of its part's voxels in bytes (pyramid
-// and live mask), 8 bytes a chunk, and 6 MiB. The file's folder must be one that all ranks reach, on a file
-// system that keeps what several machines write to different places of one file.
+// Memory of a rank: that of write_volume(), and until the end 8 bytes a chunk, 1 a trace, 12 for each 8^3
+// voxels of the inlines that it touches, and 4 MiB; on rank 0 8 bytes for each chunk of the volume. The
+// file's folder must be one that all ranks reach, on a file system that keeps what several machines write to
+// different places of one file.
 //
 // Cancel on any rank, and any rank's error, stop all soon: ranks look once a block, without waiting for each
 // other. Throws the same Error on all ranks, that of the lowest rank with one: as write_volume(). Then there
