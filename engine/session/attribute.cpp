@@ -2,13 +2,14 @@
 
 #include <omp.h>
 
-#include <cstring>
+#include <algorithm>
+#include <deque>
 #include <nlohmann/json.hpp>
 
 #include "storage/base/hash.h"
 #include "storage/base/partial_file.h"
 #include "storage/volume/volume_reader_parallel.h"
-#include "storage/volume/volume_writer.h"
+#include "storage/volume/volume_writer_parallel.h"
 
 namespace footwall::session {
 namespace {
@@ -17,64 +18,69 @@ using Json = nlohmann::json;
 
 constexpr std::size_t kJobLimit = std::size_t{1} << 20;
 
-// The blocks in the order in which the writer asks for them (volume_writer.h).
-std::vector<survey::Box> blocks_of(const survey::Index& dims) {
-  const survey::Index chunk = volume::default_chunk(dims);
-  std::vector<survey::Box> blocks;
-  for (std::int64_t i = 0; i < dims[0]; i += chunk[0]) {
-    for (std::int64_t j = 0; j < dims[1]; j += chunk[1]) {
-      blocks.push_back(
-          {{i, j, 0}, {std::min(i + chunk[0], dims[0]), std::min(j + chunk[1], dims[1]), dims[2]}});
-    }
-  }
-  return blocks;
-}
-
-// The blocks of one round: block `first + r` is computed by rank r; rank 0 gets them all.
-class Rounds {
+// What a rank needs to make blocks of the new volume.
+class Maker {
  public:
-  Rounds(const comm::Communicator& parent, const AttributeJob& job)
-      : world_(parent.get()),
-        // The reader throws on all ranks or on none, so that it may stand inside collectively().
-        reader_(world_.collectively([&] { return volume::ParallelVolumeReader(world_.get(), job.volume); })),
+  Maker(const comm::Communicator& world, const AttributeJob& job)
+      // The reader throws on all ranks or on none, so that it may stand inside collectively().
+      : reader_(world.collectively([&] { return volume::ParallelVolumeReader(world.get(), job.volume); })),
         window_(job.window),
-        kernel_(world_.collectively([&] {
+        kernel_(world.collectively([&] {
           const volume::VolumeInfo& info = reader_.info();
           return extract::DiscontinuityVolume(window_, info.dims, info.statistics.max_abs);
-        })),
-        blocks_(world_.collectively([&] { return blocks_of(reader_.info().dims); })) {}
+        })) {}
 
-  comm::Communicator& world() { return world_; }
   const volume::VolumeInfo& info() const { return reader_.info(); }
-  std::size_t blocks() const { return blocks_.size(); }
-  const survey::Box& block(std::size_t n) const { return blocks_[n]; }
-  std::size_t ranks() const { return static_cast<std::size_t>(world_.size()); }
 
-  // Collective: the values of blocks first .. first + ranks - 1 on rank 0.
-  std::vector<comm::Bytes> round(std::size_t first, const JobContext& context) {
-    return world_.exchange(world_.collectively([&] {
-      context.check();
-      std::vector<comm::Bytes> outgoing(ranks());
-      const std::size_t mine = first + static_cast<std::size_t>(world_.rank());
-      if (mine >= blocks_.size()) return outgoing;
-      const survey::Box needed = extract::needed_for(blocks_[mine], window_, reader_.info().dims);
-      values_.resize(static_cast<std::size_t>(needed.count()));
-      reader_.read_independent(needed, values_);
-      made_.resize(static_cast<std::size_t>(blocks_[mine].count()));
-      kernel_.compute(blocks_[mine], values_, made_);
-      const auto raw = std::as_bytes(std::span(made_));
-      outgoing[0].assign(raw.begin(), raw.end());
-      return outgoing;
-    }));
+  // Not collective. Blocks come in the writer's order: what the next one needs, too, is read once.
+  void make(const survey::Box& block, std::span<float> out) {
+    const survey::Box needed = extract::needed_for(block, window_, info().dims);
+    values_.resize(static_cast<std::size_t>(needed.count()));
+    const std::int64_t width = volume::default_chunk(info().dims)[1];
+    const bool goes_on = !slices_.empty() && slices_.front().box.lo[0] == needed.lo[0] &&
+                         slices_.front().box.hi[0] == needed.hi[0] &&
+                         slices_.front().box.lo[1] <= needed.lo[1];
+    if (!goes_on) slices_.clear();
+    while (!slices_.empty() && slices_.front().box.hi[1] <= needed.lo[1]) slices_.pop_front();
+    std::int64_t next = slices_.empty() ? needed.lo[1] / width * width : slices_.back().box.hi[1];
+    for (; next < needed.hi[1]; next = slices_.back().box.hi[1]) read_slice(needed, next, next + width);
+    for (const Slice& slice : slices_) copy_part(slice, needed);
+    kernel_.compute(block, values_, out);
   }
 
  private:
-  comm::Communicator world_;
+  // Values of a range of crosslines that ends where chunks of the source do, if they are as wide as ours.
+  struct Slice {
+    survey::Box box;
+    std::vector<float> values;
+  };
+
+  void read_slice(const survey::Box& needed, std::int64_t first, std::int64_t end) {
+    Slice slice;
+    slice.box = needed;
+    slice.box.lo[1] = first;
+    slice.box.hi[1] = std::min(end, info().dims[1]);
+    slice.values.resize(static_cast<std::size_t>(slice.box.count()));
+    reader_.read_independent(slice.box, slice.values);
+    slices_.push_back(std::move(slice));
+  }
+
+  void copy_part(const Slice& slice, const survey::Box& needed) {
+    const survey::Box part = survey::intersection(slice.box, needed);
+    const std::int64_t samples = needed.size(2);
+    for (std::int64_t i = 0; i < needed.size(0); ++i) {
+      const std::int64_t from = i * slice.box.size(1) + part.lo[1] - slice.box.lo[1];
+      const std::int64_t to = i * needed.size(1) + part.lo[1] - needed.lo[1];
+      std::copy_n(slice.values.data() + from * samples, part.size(1) * samples,
+                  values_.data() + to * samples);
+    }
+  }
+
   volume::ParallelVolumeReader reader_;
   extract::Window window_;
   extract::DiscontinuityVolume kernel_;
-  std::vector<survey::Box> blocks_;
-  std::vector<float> values_, made_;
+  std::deque<Slice> slices_;  // one after the other
+  std::vector<float> values_;
 };
 
 volume::WriteOptions options_of(const volume::VolumeInfo& info, const AttributeJob& job) {
@@ -91,34 +97,6 @@ volume::WriteOptions options_of(const volume::VolumeInfo& info, const AttributeJ
       {"high_is", "fault"}};
   options.provenance_json = provenance.dump(-1, ' ', false, Json::error_handler_t::replace);
   return options;
-}
-
-// Rank 0: the writer asks for one block after the other; every so often a round of all ranks makes the next
-// ones.
-volume::VolumeInfo write_all(Rounds& rounds, const AttributeJob& job, const JobContext& context) {
-  std::vector<comm::Bytes> made;
-  std::size_t next = 0;
-  bool together = false;  // inside a round, whose errors all ranks know
-  try {
-    const auto fill = [&](const survey::Box& box, std::span<float> values, std::span<std::uint8_t>) {
-      require(box == rounds.block(next), "the writer's order of blocks");
-      if (next % rounds.ranks() == 0) {
-        together = true;
-        made = rounds.round(next, context);
-        together = false;
-      }
-      const comm::Bytes& bytes = made[next % rounds.ranks()];
-      require(bytes.size() == values.size_bytes(), "the values of a block");
-      std::memcpy(values.data(), bytes.data(), bytes.size());
-      ++next;
-    };
-    return volume::write_volume(job.output, options_of(rounds.info(), job), fill, context);
-  } catch (...) {
-    if (together) throw;
-    // This rank alone: the others wait in the next round.
-    rounds.world().collectively([] { throw; });
-  }
-  throw Error(ErrorCode::kInternal, "an error that nobody knows");
 }
 
 }  // namespace
@@ -162,20 +140,20 @@ void run_attribute(const comm::Communicator& parent, const std::filesystem::path
                    const JobContext& context) {
   const double start = omp_get_wtime();
   const AttributeJob job = parent.collectively([&] { return read_attribute_job(job_path); });
-  Rounds rounds(parent, job);
-  comm::Communicator& world = rounds.world();
-  std::optional<volume::VolumeInfo> made;
-  if (world.rank() == 0) {
-    made = write_all(rounds, job, context);
-  } else {
-    for (std::size_t first = 0; first < rounds.blocks(); first += rounds.ranks())
-      rounds.round(first, context);
-  }
-  // Rank 0 comes here when the file is whole, or not at all.
+  const comm::Communicator world(parent.get());
+  Maker maker(world, job);
+  // As the reader: the writer throws on all ranks or on none.
+  const volume::VolumeInfo made = world.collectively([&] {
+    const auto fill = [&](const survey::Box& block, std::span<float> values, std::span<std::uint8_t>) {
+      maker.make(block, values);
+    };
+    return volume::write_volume_parallel(world.get(), job.output, options_of(maker.info(), job), fill,
+                                         context);
+  });
   world.collectively([&] {
     if (world.rank() != 0) return;
     const Json result{
-        {"ranks", world.size()}, {"checksum", to_hex(made->checksum)}, {"seconds", omp_get_wtime() - start}};
+        {"ranks", world.size()}, {"checksum", to_hex(made.checksum)}, {"seconds", omp_get_wtime() - start}};
     write_whole_file(job.result, result.dump(1) + "\n");
   });
 }

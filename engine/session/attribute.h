@@ -1,5 +1,6 @@
-// Makes an attribute volume on all ranks: each computes blocks of the volume, rank 0 writes them in order
-// into a volume file. The file's bytes depend on the input and the window alone, not on the number of ranks.
+// Makes an attribute volume on all ranks: each computes its part of the volume and writes it into the file
+// (volume_writer_parallel.h). The file's bytes depend on the input and the window alone, not on the number of
+// ranks.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -24,8 +25,8 @@ void write_attribute_job(const AttributeJob& job, const std::filesystem::path& p
 AttributeJob read_attribute_job(const std::filesystem::path& path);
 
 // Collective; the same Error on every rank, and then no file: what reading and writing volumes throws,
-// kCancelled. Each rank holds a block of the new volume and what is needed of the old one for it; rank 0 one
-// block of every rank.
+// kCancelled on any rank. Each rank holds what the writer does, and of the old volume at most
+// four times what is needed for a block.
 void run_attribute(const comm::Communicator& parent, const std::filesystem::path& job_path,
                    const JobContext& context);
 

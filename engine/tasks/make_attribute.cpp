@@ -7,6 +7,7 @@
 #include "engine/tasks/add_volume.h"
 #include "engine/tasks/job_home.h"
 #include "engine/tasks/open_volume.h"
+#include "storage/base/partial_file.h"
 
 namespace footwall::tasks {
 
@@ -32,6 +33,7 @@ MadeAttribute make_attribute(project::Project& project, const AttributeOptions& 
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(job.output, ignored);  // not listed, so not kept
+    remove_partial_files_of(job.output);           // of an engine that was killed
     throw;
   }
 }

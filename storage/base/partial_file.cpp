@@ -29,6 +29,11 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
 
+// How the temporary names for this file begin.
+std::string temporary_start(const std::filesystem::path& final_path) {
+  return fmt::format(".{}.partial-", final_path.filename().string());
+}
+
 }  // namespace
 
 PartialFile::PartialFile(std::filesystem::path final_path) : final_(std::move(final_path)) {
@@ -39,7 +44,7 @@ PartialFile::PartialFile(std::filesystem::path final_path) : final_(std::move(fi
     throw Error(ErrorCode::kNotFound, fmt::format("there is no folder {}", folder.string()),
                 "create it, or choose another path");
   }
-  temporary_ = folder / fmt::format(".{}.partial-{}-{}", final_.filename().string(), ::getpid(), counter++);
+  temporary_ = folder / fmt::format("{}{}-{}", temporary_start(final_), ::getpid(), counter++);
 }
 
 PartialFile::~PartialFile() {
@@ -53,6 +58,14 @@ void PartialFile::commit() {
   if (::rename(temporary_.c_str(), final_.c_str()) != 0) throw io_error("write", final_, errno);
   committed_ = true;
   flush_to_disk(folder_of(final_), O_RDONLY | O_DIRECTORY);
+}
+
+void remove_partial_files_of(const std::filesystem::path& final_path) {
+  const std::string start = temporary_start(final_path);
+  std::error_code ignored;  // as for a file that is thrown away
+  for (const auto& entry : std::filesystem::directory_iterator(folder_of(final_path), ignored)) {
+    if (entry.path().filename().string().starts_with(start)) std::filesystem::remove(entry.path(), ignored);
+  }
 }
 
 void refuse_to_replace_storage(const std::filesystem::path& path) {

@@ -25,6 +25,8 @@ class PartialFile {
   bool committed_ = false;
 };
 
+// Removes what a program that was killed left of files under way to this name. No such program may still run.
+void remove_partial_files_of(const std::filesystem::path& final_path);
 // For files that the user names: throws kInvalid where a project or a volume file stands at the path, which
 // no export is ever meant to replace.
 void refuse_to_replace_storage(const std::filesystem::path& path);

@@ -62,4 +62,8 @@ void ChunkOutput::write(std::int64_t offset, std::span<const std::byte> bytes) c
   if (failure != 0) throw io_error("write", path_, failure);
 }
 
+void ChunkOutput::flush() const {
+  if (::fdatasync(cached_) != 0) throw io_error("flush", path_, errno);
+}
+
 }  // namespace footwall::volume

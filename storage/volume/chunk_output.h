@@ -21,6 +21,8 @@ class ChunkOutput {
   // and end on pages of the file and of memory go through the page cache, and their way to the disk is
   // started at once. The caller flushes the file at the end (PartialFile::commit). Throws kIo.
   void write(std::int64_t offset, std::span<const std::byte> bytes) const;
+  // Waits until what this machine wrote is on the disk; errors of late writes come to light here. Throws kIo.
+  void flush() const;
 
  private:
   std::filesystem::path path_;

@@ -17,6 +17,11 @@ void merge(float* min, float* max, float* null, float other_min, float other_max
   *null = std::max(*null, other_null);
 }
 
+// The first entry whose nine layers meet a box that starts at `lo`: the one before, if the layer is shared.
+std::int64_t first_entry(std::int64_t lo) {
+  return std::max<std::int64_t>(0, (lo + kStep - 1) / kStep - 1);
+}
+
 struct Extremes {
   float min = kInfinity;
   float max = -kInfinity;
@@ -102,29 +107,30 @@ MinMaxRow halved(const MinMaxRow& row, std::int64_t nb, std::int64_t nc) {
   return half;
 }
 
-MinMaxBuilder::MinMaxBuilder(const survey::Index& volume_dims)
-    : volume_dims_(volume_dims), entries_(min_max_dims(volume_dims, 0)) {}
+RowRange rows_touched_by(const survey::Box& box, const survey::Index& volume_dims) {
+  const std::int64_t rows = min_max_dims(volume_dims, 0)[0];
+  return {first_entry(box.lo[0]), std::min((box.hi[0] - 1) / kStep, rows - 1) + 1};
+}
+
+MinMaxBuilder::MinMaxBuilder(const survey::Index& volume_dims, std::int64_t first_inline)
+    : volume_dims_(volume_dims), entries_(min_max_dims(volume_dims, 0)), first_(first_entry(first_inline)) {}
 
 void MinMaxBuilder::add(const survey::Box& box, std::span<const float> values) {
   require(box.size(2) == volume_dims_[2], "min/max blocks span all samples");
   require(values.size() == static_cast<std::size_t>(box.count()), "min/max block size");
-  const std::int64_t last_a = std::min((box.hi[0] - 1) / kStep, entries_[0] - 1);
+  const auto [first_a, end_a] = rows_touched_by(box, volume_dims_);
+  require(first_a >= first_, "a box whose rows were not taken");
   const std::int64_t plane = entries_[1] * entries_[2];
-  // Entries whose nine layers meet the block: the one before its first trace too, if that trace is shared.
-  const auto first_entry = [](std::int64_t lo) {
-    return std::max<std::int64_t>(0, (lo + kStep - 1) / kStep - 1);
-  };
-  const std::int64_t first_a = first_entry(box.lo[0]);
   const std::int64_t first_b = first_entry(box.lo[1]);
   const std::int64_t last_b = std::min((box.hi[1] - 1) / kStep, entries_[1] - 1);
   const std::int64_t samples = volume_dims_[2];
   const std::int64_t n_b = last_b - first_b + 1;
   const std::int64_t n_c = entries_[2];
-  const auto found_size = static_cast<std::size_t>((last_a - first_a + 1) * n_b * n_c);
+  const auto found_size = static_cast<std::size_t>((end_a - first_a) * n_b * n_c);
   std::vector<Extremes> found(found_size);  // [a][b][c]
   Extremes* next = found.data();
   Fold fold;
-  for (std::int64_t a = first_a; a <= last_a; ++a) {
+  for (std::int64_t a = first_a; a < end_a; ++a) {
     for (std::int64_t b = first_b; b <= last_b; ++b) {
       const std::int64_t i_end = std::min(box.hi[0], a * kStep + kStep + 1);
       const std::int64_t j_end = std::min(box.hi[1], b * kStep + kStep + 1);
@@ -141,9 +147,9 @@ void MinMaxBuilder::add(const survey::Box& box, std::span<const float> values) {
   }
 
   const std::scoped_lock lock(mutex_);
-  while (first_ + static_cast<std::int64_t>(rows_.size()) <= last_a) rows_.push_back(empty_row(plane));
+  while (first_ + static_cast<std::int64_t>(rows_.size()) < end_a) rows_.push_back(empty_row(plane));
   const Extremes* from = found.data();
-  for (std::int64_t a = first_a; a <= last_a; ++a) {
+  for (std::int64_t a = first_a; a < end_a; ++a) {
     float* row = rows_[static_cast<std::size_t>(a - first_)].data() + first_b * n_c;
     for (std::int64_t n = 0; n < n_b * n_c; ++n, ++from) {
       merge(row + n, row + n + plane, row + n + 2 * plane, from->min, from->max, from->null);

@@ -6,6 +6,18 @@
 #include <new>
 
 namespace footwall::volume {
+namespace {
+
+constexpr std::int64_t kPiece = std::int64_t{1} << 30;  // counts are ints
+
+// f(offset, count) for pieces of at most kPiece.
+void each_piece(std::size_t size, const std::function<void(std::size_t, int)>& f) {
+  const auto bytes = static_cast<std::int64_t>(size);
+  for (std::int64_t at = 0; at < bytes; at += kPiece)
+    f(static_cast<std::size_t>(at), static_cast<int>(std::min(kPiece, bytes - at)));
+}
+
+}  // namespace
 
 void check_mpi(int code, const char* call) {
   if (code == MPI_SUCCESS) return;
@@ -42,7 +54,7 @@ std::optional<Error> outcome_of(const std::function<void()>& f) {
   } catch (const Error& error) {
     return error;
   } catch (const std::bad_alloc&) {
-    return Error(ErrorCode::kMemory, "not enough memory to read the volume");
+    return Error(ErrorCode::kMemory, "not enough memory for the volume");
   } catch (const std::exception& error) {
     return Error(ErrorCode::kInternal, error.what());
   }
@@ -53,12 +65,22 @@ void broadcast(const OwnCommunicator& comm, std::string& text) {
   auto size = static_cast<long long>(text.size());
   check_mpi(MPI_Bcast(&size, 1, MPI_LONG_LONG, 0, comm.get()), "MPI_Bcast");
   text.resize(static_cast<std::size_t>(size));
-  constexpr long long kPiece = 1LL << 30;  // counts are ints
-  for (long long at = 0; at < size; at += kPiece) {
-    check_mpi(
-        MPI_Bcast(text.data() + at, static_cast<int>(std::min(kPiece, size - at)), MPI_CHAR, 0, comm.get()),
-        "MPI_Bcast");
-  }
+  each_piece(text.size(), [&](std::size_t at, int count) {
+    check_mpi(MPI_Bcast(text.data() + at, count, MPI_CHAR, 0, comm.get()), "MPI_Bcast");
+  });
+}
+
+void send(const OwnCommunicator& comm, std::span<const std::byte> bytes, int to) {
+  each_piece(bytes.size(), [&](std::size_t at, int count) {
+    check_mpi(MPI_Send(bytes.data() + at, count, MPI_BYTE, to, 0, comm.get()), "MPI_Send");
+  });
+}
+
+void receive(const OwnCommunicator& comm, std::span<std::byte> bytes, int from) {
+  each_piece(bytes.size(), [&](std::size_t at, int count) {
+    check_mpi(MPI_Recv(bytes.data() + at, count, MPI_BYTE, from, 0, comm.get(), MPI_STATUS_IGNORE),
+              "MPI_Recv");
+  });
 }
 
 void agree(const OwnCommunicator& comm, const std::optional<Error>& mine) {

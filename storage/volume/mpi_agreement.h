@@ -1,9 +1,12 @@
-// What the parallel reader needs of MPI beside MPI-IO: checked return codes, and one outcome for all ranks.
+// What the parallel reader and writer need of MPI beside MPI-IO: checked return codes, and one outcome for
+// all ranks.
 #pragma once
 #include <mpi.h>
 
+#include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "storage/base/error.h"
@@ -36,5 +39,9 @@ void agree(const OwnCommunicator& comm, const std::optional<Error>& mine);
 
 // Collective: rank 0's text on all ranks.
 void broadcast(const OwnCommunicator& comm, std::string& text);
+
+// Bytes to or from one other rank, who knows how many there are. Blocks.
+void send(const OwnCommunicator& comm, std::span<const std::byte> bytes, int to);
+void receive(const OwnCommunicator& comm, std::span<std::byte> bytes, int from);
 
 }  // namespace footwall::volume

@@ -5,10 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "storage/base/error.h"
+
 namespace footwall::volume {
 namespace {
 
 constexpr int kBins = 1 << 16;
+constexpr std::size_t kNumbersOfBin = 4;
 constexpr int kFiniteMagnitudes = 0x7f80;  // bins of one sign below infinity
 constexpr int kSumBits = 40;               // 2^24 low halves of 16 bits add up to less than 2^40
 constexpr std::size_t kMostBetweenFlushes = (std::size_t{1} << 24) - 1;
@@ -54,6 +57,30 @@ SampleStatistics::SampleStatistics()
       wide_(kBins),
       min_(std::numeric_limits<float>::infinity()),
       max_(-std::numeric_limits<float>::infinity()) {}
+
+// A bin's numbers: count, sum, and the sum of squares in two halves, so that they add up without carries.
+SampleStatistics::SampleStatistics(const Totals& totals) : SampleStatistics() {
+  require(totals.numbers.size() == kNumbersOfBin * kBins, "the numbers of all bins");
+  min_ = totals.min;
+  max_ = totals.max;
+  const std::uint64_t* from = totals.numbers.data();
+  for (Wide& bin : wide_) {
+    bin = {from[0], from[1], (static_cast<Wide128>(from[3]) << 32) + from[2]};
+    from += kNumbersOfBin;
+  }
+}
+
+SampleStatistics::Totals SampleStatistics::totals() {
+  flush();
+  Totals totals{{}, min_, max_};
+  totals.numbers.reserve(kNumbersOfBin * kBins);
+  for (const Wide& bin : wide_) {
+    const auto low = static_cast<std::uint64_t>(bin.squares & 0xffffffffU);
+    const auto high = static_cast<std::uint64_t>(bin.squares >> 32);
+    totals.numbers.insert(totals.numbers.end(), {bin.count, bin.sum, low, high});
+  }
+  return totals;
+}
 
 void SampleStatistics::add(std::span<const float> values) {
   constexpr std::size_t kLanes = 16;

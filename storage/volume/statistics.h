@@ -18,7 +18,18 @@ __extension__ typedef unsigned __int128 Wide128;
 // (copy_clean).
 class SampleStatistics {
  public:
+  // All that an accumulator knows, to be sent elsewhere. Those of two are combined by adding the numbers
+  // place by place (they do not overflow in any sum over fewer than 2^31 accumulators), and by the smaller
+  // min and the larger max.
+  struct Totals {
+    std::vector<std::uint64_t> numbers;
+    float min = 0;
+    float max = 0;
+  };
+
   SampleStatistics();
+  explicit SampleStatistics(const Totals& totals);
+  Totals totals();
   void add(std::span<const float> values);
   void merge(SampleStatistics& other);
   // live_traces is taken over; the rest is computed.

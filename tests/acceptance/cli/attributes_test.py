@@ -1,6 +1,8 @@
 """Contrast, offset, numbers of whole faults, filtered values, discontinuity volumes, and how good they are."""
 import csv
+import json
 import math
+import sys
 import unittest
 
 from support import FootwallTest
@@ -93,6 +95,21 @@ class Attributes(FootwallTest):
         self.assertEqual(self.refused(2, "attribute", project, "--kind", "curvature")["code"], "usage")
         self.assertEqual(self.refused(1, "attribute", project, "--volume", "nothing")["code"], "not_found")
         self.assertEqual(len(self.footwall("info", project)["volumes"]), 5)
+
+    def test_a_killed_engine_leaves_no_part_of_a_volume(self):
+        project = self.synthetic()
+        folder = self.folder / "s.footwall.volumes"
+        before = sorted(folder.iterdir())
+        # Ends as mpirun does whose ranks are killed in the middle of the file.
+        launcher = self.folder / "launcher.py"
+        launcher.write_text("import json, os, pathlib, sys\n"
+                            "output = pathlib.Path(json.load(open(sys.argv[-1]))['output'])\n"
+                            "(output.parent / f'.{output.name}.partial-1-0').write_text('half')\n"
+                            "os.kill(os.getpid(), 9)\n")
+        done = self.start("attribute", project, "--json", env={"FOOTWALL_LAUNCHER": f"{sys.executable} {launcher}"})
+        self.assertEqual(json.loads(done.stdout)["error"]["code"], "engine")
+        self.assertEqual(sorted(folder.iterdir()), before)
+        self.assertEqual(len(self.footwall("info", project)["volumes"]), 1)
 
     def test_an_imported_volume_says_what_it_is(self):
         project = self.synthetic()

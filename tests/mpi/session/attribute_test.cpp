@@ -83,10 +83,60 @@ TEST_F(Attribute, IsTheDefinitionForAnyNumberOfRanks) {
   }
 }
 
+// Nine blocks, of which more than one falls to a rank: what neighbours share is read once, and must be right.
+TEST_F(Attribute, BlocksAreThoseOfTheDefinition) {
+  const survey::Index dims{70, 67, 6};
+  const extract::Window window{5, 3, 3};
+  const auto value = [](const survey::Index& p) {
+    const std::int64_t n = (p[0] * 7919 + p[1] * 104729 + p[2] * 15485863) % 20011;
+    return n % 37 == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(n - 10000) * 0.125F;
+  };
+  world.collectively([&] {
+    if (world.rank() != 0) return;
+    volume::WriteOptions options;
+    options.geometry.inlines.count = dims[0];
+    options.geometry.crosslines.count = dims[1];
+    options.geometry.samples = dims[2];
+    const auto fill = [&](const survey::Box& box, std::span<float> values, std::span<std::uint8_t>) {
+      std::size_t n = 0;
+      for (std::int64_t i = box.lo[0]; i < box.hi[0]; ++i) {
+        for (std::int64_t j = box.lo[1]; j < box.hi[1]; ++j) {
+          for (std::int64_t k = 0; k < dims[2]; ++k) values[n++] = value({i, j, k});
+        }
+      }
+    };
+    volume::write_volume(path / "blocks.h5", options, fill, {});
+  });
+  run_attribute(world, job_with([&](AttributeJob& job) {
+                  job.volume = path / "blocks.h5";
+                  job.window = window;
+                }),
+                {});
+  if (world.rank() != 0) return;
+  const double max_abs = volume::VolumeReader(path / "blocks.h5").info().statistics.max_abs;
+  const volume::VolumeReader made(path / "made.h5");
+  EXPECT_EQ(made.info().chunk, (survey::Index{32, 32, 6}));
+  std::vector<float> values(static_cast<std::size_t>(dims[0] * dims[1] * dims[2]));
+  made.read({{0, 0, 0}, dims}, values);
+  std::size_t n = 0;
+  for (std::int64_t i = 0; i < dims[0]; ++i) {
+    for (std::int64_t j = 0; j < dims[1]; ++j) {
+      for (std::int64_t k = 0; k < dims[2]; ++k, ++n) {
+        const float want = verify::attribute_by_definition(
+            {i, j, k}, {window.inlines, window.crosslines, window.samples}, dims, value, max_abs);
+        ASSERT_EQ(std::isnan(values[n]), std::isnan(want));
+        if (!std::isnan(want)) {
+          ASSERT_EQ(std::bit_cast<std::uint32_t>(values[n]), std::bit_cast<std::uint32_t>(want));
+        }
+      }
+    }
+  }
+}
+
 TEST_F(Attribute, TroubleIsTheSameErrorOnAllRanksAndLeavesNoFile) {
   EXPECT_EQ(code_of(job_with([&](AttributeJob& job) { job.volume = path / "gone.h5"; })),
             ErrorCode::kNotFound);
-  // Only rank 0 writes, so only it sees this.
+  // Only rank 0 makes the file, so only it sees this.
   EXPECT_EQ(code_of(job_with([&](AttributeJob& job) { job.output = path / "no such folder" / "made.h5"; })),
             ErrorCode::kNotFound);
   const JobContext cancelled;

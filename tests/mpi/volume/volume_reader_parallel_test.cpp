@@ -6,13 +6,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "scratch_folder.h"
-#include "storage/base/error.h"
+#include "mpi/volume/shared_folder.h"
 #include "storage/volume/volume_writer.h"
 
 namespace footwall::volume {
@@ -28,24 +25,14 @@ float value_at(std::int64_t i, std::int64_t j, std::int64_t k) {
   return static_cast<float>((i * 1000 + j) * 64 + k) * 0.25F;
 }
 
-// One folder for all ranks, made and removed by rank 0.
-class ParallelVolumeReaderTest : public ::testing::Test {
+class ParallelVolumeReaderTest : public SharedFolder {
  protected:
   void SetUp() override {
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
-    MPI_Comm_size(MPI_COMM_WORLD, &ranks_);
-    char name[256] = {};
-    if (rank_ == 0) {
-      made_ = std::make_unique<ScratchFolder>();
-      made_->path().string().copy(name, sizeof name - 1);
-    }
-    MPI_Bcast(name, sizeof name, MPI_CHAR, 0, MPI_COMM_WORLD);
-    folder_ = name;
+    SharedFolder::SetUp();
     path_ = folder_ / "v.h5";
     if (rank_ == 0) write();
     MPI_Barrier(MPI_COMM_WORLD);
   }
-  void TearDown() override { MPI_Barrier(MPI_COMM_WORLD); }
 
   void write() const {
     WriteOptions options;
@@ -88,26 +75,6 @@ class ParallelVolumeReaderTest : public ::testing::Test {
     return count;
   }
 
-  // The text of the error that f throws on this rank, after checking that all ranks got the same.
-  static std::string same_error(ErrorCode code, const std::function<void()>& f) {
-    std::string text = "none";
-    try {
-      f();
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), code) << error.what();
-      text = error.what();
-    }
-    char first[1024] = {};
-    text.copy(first, sizeof first - 1);
-    MPI_Bcast(first, sizeof first, MPI_CHAR, 0, MPI_COMM_WORLD);
-    EXPECT_EQ(text, first);
-    return text;
-  }
-
-  int rank_ = 0;
-  int ranks_ = 1;
-  std::unique_ptr<ScratchFolder> made_;  // on rank 0
-  std::filesystem::path folder_;
   std::filesystem::path path_;
 };
 

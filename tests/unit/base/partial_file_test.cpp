@@ -32,6 +32,19 @@ TEST_F(PartialFileTest, TakesItsNameOnlyWhenCommitted) {
   EXPECT_EQ(entries(), 1U);
 }
 
+TEST_F(PartialFileTest, WhatAKilledProgramLeftOfOneNameCanBeRemoved) {
+  PartialFile other(folder_ / "another");
+  const PartialFile file(folder_ / "one");
+  std::ofstream(other.path()) << "still written";
+  std::ofstream(file.path()) << "half";
+  std::ofstream(folder_ / "one") << "whole";
+  remove_partial_files_of(folder_ / "one");
+  EXPECT_FALSE(std::filesystem::exists(file.path()));
+  EXPECT_TRUE(std::filesystem::exists(other.path()));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "one"));
+  EXPECT_NO_THROW(remove_partial_files_of(folder_ / "no" / "file"));
+}
+
 TEST_F(PartialFileTest, RefusesAFolderThatIsNotThereAndAFileThatIsTooLarge) {
   EXPECT_THROW(PartialFile(folder_ / "no" / "file"), Error);
   write_whole_file(folder_ / "ten", "0123456789");

@@ -64,5 +64,35 @@ TEST_F(VolumeTest, EveryEntryOfEveryLevelIsTheBruteForceOne) {
   }
 }
 
+// Parts of a volume bring parts of the same rows, which merge into those of the whole.
+TEST(MinMaxBuilder, RowsOfPartsMergeIntoThoseOfTheWhole) {
+  const survey::Index dims{41, 9, 12};
+  const auto values_of = [&](const survey::Box& box) {
+    std::vector<float> values(static_cast<std::size_t>(box.count()));
+    std::vector<std::uint8_t> live(static_cast<std::size_t>(box.size(0) * box.size(1)));
+    source_of(wavy)(box, values, live);
+    return values;
+  };
+  const survey::Box all{{0, 0, 0}, dims};
+  MinMaxBuilder whole(dims);
+  whole.add(all, values_of(all));
+  const std::vector<MinMaxRow> wanted = whole.take_finished(dims[0]);
+  ASSERT_EQ(wanted.size(), 5U);
+  for (std::int64_t cut = 1; cut < dims[0]; ++cut) {
+    std::vector<MinMaxRow> rows(5, empty_row(2 * 1 * 1));
+    for (const auto& [lo, hi] : {std::pair<std::int64_t, std::int64_t>{0, cut}, {cut, dims[0]}}) {
+      const survey::Box part{{lo, 0, 0}, {hi, dims[1], dims[2]}};
+      MinMaxBuilder builder(dims, lo);
+      builder.add(part, values_of(part));
+      const std::vector<MinMaxRow> some = builder.take_finished(dims[0]);
+      const RowRange touched = rows_touched_by(part, dims);
+      ASSERT_EQ(static_cast<std::int64_t>(some.size()), touched.end - touched.first) << cut;
+      for (std::size_t n = 0; n < some.size(); ++n)
+        merge_row(rows[static_cast<std::size_t>(touched.first) + n], some[n]);
+    }
+    EXPECT_EQ(rows, wanted) << cut;
+  }
+}
+
 }  // namespace
 }  // namespace footwall::volume

@@ -47,6 +47,24 @@ TEST(SampleStatistics, AgreesWithLongDoublesOnOrdinaryAndOffsetData) {
   }
 }
 
+TEST(SampleStatistics, TotalsOfPartsAddUpToThoseOfTheWhole) {
+  std::vector<float> values = noise(40000, -5, 1e6F);
+  values[7] = std::numeric_limits<float>::quiet_NaN();
+  // Squares of a bin that fill the lower half of their sum many times over.
+  values.insert(values.end(), 300000, std::nextafter(2.0F, 1.0F));
+  SampleStatistics first;
+  SampleStatistics second;
+  first.add(std::span(values).first(150000));
+  second.add(std::span(values).subspan(150000));
+  SampleStatistics::Totals sum = first.totals();
+  const SampleStatistics::Totals more = second.totals();
+  ASSERT_EQ(sum.numbers.size(), more.numbers.size());
+  for (std::size_t n = 0; n < sum.numbers.size(); ++n) sum.numbers[n] += more.numbers[n];
+  sum.min = std::min(sum.min, more.min);
+  sum.max = std::max(sum.max, more.max);
+  EXPECT_EQ(SampleStatistics(sum).result(0), of(values));
+}
+
 TEST(SampleStatistics, PercentilesAreGoodTo2ToTheMinus7) {
   std::vector<float> values = noise(50001, 0, 100);
   const Statistics s = of(values);
