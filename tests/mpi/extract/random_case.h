@@ -38,6 +38,22 @@ inline Case random_case(const survey::Index& dims, int faces, unsigned seed) {
   return made;
 }
 
+// Moves the vertices of a third of the faces by up to 2 voxels along each axis; their places.
+inline std::vector<std::size_t> move_some(Case& c, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::vector<std::size_t> moved;
+  for (std::size_t n = 0; n < c.faces.size(); ++n) {
+    if (random() % 3 != 0) continue;
+    for (survey::LatticePoint& p : c.faces[n].triangle) {
+      p.i += static_cast<std::int32_t>(random() % 1025) - 512;
+      p.j += static_cast<std::int32_t>(random() % 1025) - 512;
+      p.k += static_cast<std::int32_t>(random() % 1025) - 512;
+    }
+    moved.push_back(n);
+  }
+  return moved;
+}
+
 inline survey::Box bounding_box(const survey::LatticeTriangle& t, const survey::Index& dims) {
   survey::Box box{{1 << 30, 1 << 30, 1 << 30}, {-(1 << 30), -(1 << 30), -(1 << 30)}};
   for (const survey::LatticePoint& p : t) {
