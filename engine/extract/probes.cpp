@@ -174,8 +174,9 @@ void orient_offsets(std::span<const Face> faces, std::span<FaceStatistics> stati
   }
   for (std::size_t n = 0; n < faces.size(); ++n) {
     double& offset = statistics[n].offset_voxels;
-    // Not -0: a face on the spot is on no side.
-    if (offset != 0 && sign_of_first(sums[faces[n].fault]) < 0) offset = -offset;
+    // Not -0: a face on the spot is on no side. Nor a NaN of the other sign: the one for undefined is the
+    // same everywhere, down to its bits.
+    if (offset != 0 && !std::isnan(offset) && sign_of_first(sums[faces[n].fault]) < 0) offset = -offset;
   }
 }
 

@@ -18,19 +18,6 @@ namespace {
 const std::vector<std::string> kAll{"reduce", "minimum", "block=1", "block=5", "bounding", "push"};
 const std::vector<std::string> kMoving{"minimum", "block=2", "bounding", "push"};
 
-// Some vertices moved by up to some voxels, the same on every rank.
-void move_some(Case& c, unsigned seed) {
-  std::mt19937_64 random(seed);
-  for (Face& face : c.faces) {
-    if (random() % 3 != 0) continue;
-    for (survey::LatticePoint& p : face.triangle) {
-      p.i += static_cast<std::int32_t>(random() % 1025) - 512;
-      p.j += static_cast<std::int32_t>(random() % 1025) - 512;
-      p.k += static_cast<std::int32_t>(random() % 1025) - 512;
-    }
-  }
-}
-
 Options options_of(const std::string& exchange, bool with_discontinuity) {
   Options options;
   options.exchange = exchange;

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "engine/extract/balance/none.h"
+#include "mpi/extract/code_of.h"
 #include "mpi/extract/random_case.h"
 #include "storage/base/hash.h"
 
@@ -101,15 +102,6 @@ INSTANTIATE_TEST_SUITE_P(StrategiesAndThreads, ExtractAll,
                            std::replace(name.begin(), name.end(), '=', '_');
                            return name + "_threads_" + std::to_string(std::get<1>(chosen.param));
                          });
-
-ErrorCode code_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.code();
-  }
-  return ErrorCode::kInternal;
-}
 
 TEST(ExtractErrors, OneRanksTroubleEndsTheJobOnAll) {
   const comm::Communicator world(MPI_COMM_WORLD);

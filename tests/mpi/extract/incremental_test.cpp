@@ -5,6 +5,7 @@
 #include <map>
 
 #include "engine/extract/registry.h"
+#include "mpi/extract/code_of.h"
 #include "mpi/extract/random_survey.h"
 #include "rounds.h"
 
@@ -163,15 +164,6 @@ TEST(Incremental, CostsWhatWasTouchedWhateverElseIsThere) {
   // Three faces, each with a record of at most 187 bytes from every rank but its own.
   EXPECT_LE(reports[0].messages, 3 * (world.size() - 1));
   EXPECT_LE(reports[0].bytes_sent, 187 * 3 * (world.size() - 1));
-}
-
-ErrorCode code_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.code();
-  }
-  return ErrorCode::kInternal;
 }
 
 TEST(Incremental, RefusedAndFailedUpdatesChangeNothing) {

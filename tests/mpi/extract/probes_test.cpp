@@ -2,59 +2,36 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <map>
 #include <random>
 
 #include "engine/extract/exchange/exchange.h"
-#include "engine/extract/extract.h"
-#include "engine/extract/face_numbers.h"
 #include "engine/verify/contrast_by_definition.h"
+#include "mpi/extract/same_bits.h"
+#include "mpi/extract/survey_case.h"
 
 namespace footwall::extract {
 namespace {
 
-struct Case {
-  survey::Index dims{26, 22, 30};
-  std::vector<float> values;
-  std::vector<Face> faces;
-  double max_abs = 0;
-
-  float at(const survey::Index& p) const {
-    return values[static_cast<std::size_t>((p[0] * dims[1] + p[1]) * dims[2] + p[2])];
-  }
-  Input input() const { return {dims, max_abs, faces}; }
-  ReadBox reader() const {
-    return [this](const survey::Box& box, std::span<float> out) {
-      std::size_t n = 0;
-      for (std::int64_t i = box.lo[0]; i < box.hi[0]; ++i) {
-        for (std::int64_t j = box.lo[1]; j < box.hi[1]; ++j) {
-          for (std::int64_t k = box.lo[2]; k < box.hi[2]; ++k) out[n++] = at({i, j, k});
-        }
-      }
-    };
-  }
-  std::map<std::int64_t, std::vector<Face>> by_fault() const {
-    std::map<std::int64_t, std::vector<Face>> all;
-    for (const Face& face : faces) all[face.fault].push_back(face);
-    return all;
-  }
-};
+std::map<std::int64_t, std::vector<Face>> by_fault(const Case& c) {
+  std::map<std::int64_t, std::vector<Face>> all;
+  for (const Face& face : c.faces) all[face.fault].push_back(face);
+  return all;
+}
 
 // Layers that jump along a plane, with nulls; faces of three faults, large and small, inside and outside,
 // with and without area. The same on every rank.
 Case made_case(const survey::Index& dims, int faces, unsigned seed) {
   std::mt19937_64 random(seed);
-  Case c;
-  c.dims = dims;
+  Case c{dims, {}, {}, 0};
   for (std::int64_t i = 0; i < dims[0]; ++i) {
     for (std::int64_t j = 0; j < dims[1]; ++j) {
       for (std::int64_t k = 0; k < dims[2]; ++k) {
         const std::int64_t layer = i + j / 3 < 14 ? k : k + 5;
         float value = static_cast<float>((layer * 7919) % 13 - 6) + static_cast<float>(random() % 64) / 64;
         c.max_abs = std::max(c.max_abs, static_cast<double>(std::abs(value)));
-        if (random() % 40 == 0) value = std::numeric_limits<float>::quiet_NaN();
+        if (random() % 40 == 0) value = kNull;
         c.values.push_back(value);
       }
     }
@@ -80,10 +57,6 @@ Case made_case(const survey::Index& dims, int faces, unsigned seed) {
   return c;
 }
 
-std::uint64_t bits(double value) {
-  return std::isnan(value) ? 1 : std::bit_cast<std::uint64_t>(value);
-}
-
 class Probes : public testing::TestWithParam<std::string_view> {
  protected:
   void check(const Case& c, int threads) {
@@ -96,14 +69,14 @@ class Probes : public testing::TestWithParam<std::string_view> {
     options.compute = {"contrast"};
     const Result contrast_alone = extract_all(world, c.input(), options, c.reader());
     if (world.rank() != 0) return;
-    const auto by_fault = c.by_fault();
+    const auto faults = by_fault(c);
     int defined = 0;
     int away = 0;
     for (std::size_t n = 0; n < c.faces.size(); ++n) {
       SCOPED_TRACE(testing::Message() << "face " << n);
       const auto want = verify::contrast_by_definition(
           c.faces[n].triangle, c.dims, [&](const survey::Index& p) { return c.at(p); }, c.max_abs,
-          verify::side_by_definition(by_fault.at(c.faces[n].fault)));
+          verify::side_by_definition(faults.at(c.faces[n].fault)));
       EXPECT_EQ(bits(result.faces[n].contrast), bits(want.contrast));
       EXPECT_EQ(bits(result.faces[n].offset_voxels), bits(want.offset_voxels));
       EXPECT_EQ(bits(result.faces[n].offset_score), bits(want.offset_score));
@@ -177,10 +150,10 @@ TEST_P(WholeFaults, CountEachVoxelOnce) {
       EXPECT_TRUE(got.empty());
       continue;
     }
-    const auto by_fault = c.by_fault();
-    ASSERT_EQ(got.size(), by_fault.size());
+    const auto faults = by_fault(c);
+    ASSERT_EQ(got.size(), faults.size());
     std::size_t n = 0;
-    for (const auto& [fault, faces] : by_fault) {
+    for (const auto& [fault, faces] : faults) {
       std::vector<survey::Index> voxels;
       for (const Face& face : faces) {
         const auto own = verify::voxels_in_survey(face.triangle, c.dims);
@@ -195,12 +168,7 @@ TEST_P(WholeFaults, CountEachVoxelOnce) {
       const FaultStatistics& have = got[n++];
       EXPECT_EQ(have.fault, fault);
       EXPECT_EQ(have.faces, static_cast<std::int64_t>(faces.size()));
-      EXPECT_EQ(have.statistics.count, want.count);
-      EXPECT_EQ(have.statistics.nulls, want.nulls);
-      EXPECT_EQ(have.statistics.outside, want.outside);
-      for (const FaceNumber& each : kFaceNumbers) {
-        EXPECT_EQ(bits(have.statistics.*each.member), bits(want.*each.member)) << each.name;
-      }
+      expect_equal(have.statistics, want);
     }
   }
 }

@@ -1,58 +1,20 @@
 // A survey with awkward values and faces, the same on every rank, and its statistics by definition.
 #pragma once
-#include <gtest/gtest.h>
-
-#include <bit>
-#include <cmath>
-#include <limits>
 #include <random>
-#include <span>
 #include <vector>
 
-#include "engine/extract/extract.h"
-#include "engine/extract/face_numbers.h"
 #include "engine/verify/statistics_by_definition.h"
 #include "engine/verify/voxel_oracle.h"
+#include "mpi/extract/same_bits.h"
+#include "mpi/extract/survey_case.h"
 
 namespace footwall::extract {
-
-inline constexpr float kNull = std::numeric_limits<float>::quiet_NaN();
-
-struct Case {
-  survey::Index dims;
-  std::vector<float> values;
-  std::vector<Face> faces;
-  double max_abs = 0;
-
-  float at(const survey::Index& p) const {
-    return values[static_cast<std::size_t>((p[0] * dims[1] + p[1]) * dims[2] + p[2])];
-  }
-  Input input() const { return {dims, max_abs, faces}; }
-  ReadBox reader() const {
-    return [this](const survey::Box& box, std::span<float> out) {
-      ASSERT_EQ(static_cast<std::int64_t>(out.size()), box.count());
-      std::size_t n = 0;
-      for (std::int64_t i = box.lo[0]; i < box.hi[0]; ++i) {
-        for (std::int64_t j = box.lo[1]; j < box.hi[1]; ++j) {
-          for (std::int64_t k = box.lo[2]; k < box.hi[2]; ++k) out[n++] = at({i, j, k});
-        }
-      }
-    };
-  }
-};
 
 // The same on every rank: the generator's numbers are the standard's, the rest is integer arithmetic.
 inline Case random_case(const survey::Index& dims, int faces, unsigned seed) {
   std::mt19937_64 random(seed);
   Case made{dims, {}, {}, 0};
-  for (std::int64_t n = 0; n < dims[0] * dims[1] * dims[2]; ++n) {
-    const auto whole = static_cast<std::int32_t>(random() % 2000001) - 1000000;
-    float value = static_cast<float>(whole) * 0.0009765625F;
-    if (random() % 23 == 0) value *= 1e-30F;
-    made.max_abs = std::max(made.max_abs, static_cast<double>(std::abs(value)));
-    if (random() % 19 == 0) value = kNull;
-    made.values.push_back(value);
-  }
+  fill_with_awkward_values(made, random);
   const auto coordinate = [&](std::size_t axis, std::int64_t beyond) {
     const std::int64_t span = (dims[axis] + 2 * beyond) * 256;
     return static_cast<std::int32_t>(static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(span)) -
@@ -74,6 +36,22 @@ inline Case random_case(const survey::Index& dims, int faces, unsigned seed) {
     made.faces.push_back(face);
   }
   return made;
+}
+
+// Moves the vertices of a third of the faces by up to 2 voxels along each axis; their places.
+inline std::vector<std::size_t> move_some(Case& c, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::vector<std::size_t> moved;
+  for (std::size_t n = 0; n < c.faces.size(); ++n) {
+    if (random() % 3 != 0) continue;
+    for (survey::LatticePoint& p : c.faces[n].triangle) {
+      p.i += static_cast<std::int32_t>(random() % 1025) - 512;
+      p.j += static_cast<std::int32_t>(random() % 1025) - 512;
+      p.k += static_cast<std::int32_t>(random() % 1025) - 512;
+    }
+    moved.push_back(n);
+  }
+  return moved;
 }
 
 inline survey::Box bounding_box(const survey::LatticeTriangle& t, const survey::Index& dims) {
@@ -110,24 +88,6 @@ inline std::vector<FaceStatistics> by_definition(const Case& c) {
         where(face.triangle, c.dims, !voxels.empty())));
   }
   return all;
-}
-
-inline std::uint64_t bits(double value) {
-  return std::isnan(value) ? 1 : std::bit_cast<std::uint64_t>(value);
-}
-
-inline void expect_equal(const std::vector<FaceStatistics>& got, const std::vector<FaceStatistics>& want) {
-  ASSERT_EQ(got.size(), want.size());
-  for (std::size_t n = 0; n < got.size(); ++n) {
-    SCOPED_TRACE(testing::Message() << "face " << n);
-    EXPECT_EQ(got[n].count, want[n].count);
-    EXPECT_EQ(got[n].nulls, want[n].nulls);
-    EXPECT_EQ(got[n].outside, want[n].outside);
-    for (const FaceNumber& each : kFaceNumbers) {
-      if (!each.of_faults) continue;
-      EXPECT_EQ(bits(got[n].*each.member), bits(want[n].*each.member)) << each.name;
-    }
-  }
 }
 
 }  // namespace footwall::extract
