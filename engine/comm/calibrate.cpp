@@ -7,12 +7,12 @@ namespace footwall::comm {
 namespace {
 
 constexpr int kTag = 7;
-constexpr int kSmall = 8;         // bytes of a message that costs latency only
-constexpr int kMiddle = 1 << 14;  // two sizes whose difference is bandwidth only
-constexpr int kLarge = 1 << 19;
-constexpr int kMostPartners = 8;             // in a burst
-constexpr std::size_t kFewest = 5;           // rounds whose median counts
-constexpr std::size_t kOtherWork = 1 << 23;  // bytes that a rank looks at between messages
+constexpr int kSmall = 8;           // bytes of a message that costs latency only
+constexpr int kMiddle = 1 << 14;    // two sizes whose difference is bandwidth only
+constexpr int kLarge = 1 << 21;     // more than a cache of a core keeps, as the messages of large surveys
+constexpr int kMostPartners = 8;    // in a burst
+constexpr std::size_t kFewest = 5;  // rounds whose median counts
+constexpr std::size_t kOtherWork = 1 << 26;  // bytes that a rank looks at between messages
 constexpr std::size_t kLine = 64;
 constexpr double kLeast = 1e-12;  // what cannot be told from nothing: a picosecond a byte, or less
 
@@ -25,7 +25,7 @@ double median(std::vector<double> values) {
 class Links {
  public:
   explicit Links(const Communicator& world)
-      : world_(world), out_(kLarge), in_(kLarge * kMostPartners), other_work_(kOtherWork) {
+      : world_(world), out_(kLarge), in_(kLarge), other_work_(kOtherWork) {
     // The ranks of one host usually follow each other, so that a partner half a world away is on another host
     // where there are several. The last of an odd number of ranks has none.
     const int half = world.size() / 2;

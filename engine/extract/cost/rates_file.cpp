@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
 // Counts up where the meaning of a rate, or how it is measured, changes.
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 constexpr std::size_t kLargest = 1 << 16;
 
 Json json_of(const RatesKey& key) {

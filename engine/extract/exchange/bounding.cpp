@@ -81,6 +81,7 @@ Outcome exchange_bounding(const Setup& setup) {
   phases.enter(&Seconds::exchange);
   phases.meet();
   transfer.wait();
+  phases.meet();
 
   phases.enter(&Seconds::compute);
   world.collectively([&] {

@@ -97,6 +97,7 @@ Outcome exchange_by_request(const Setup& setup, std::int64_t side) {
       requests.wait();
     }
     replies.wait();
+    phases.meet();
   }
   phases.enter(&Seconds::compute);
 

@@ -13,8 +13,8 @@ class Phases {
   void enter(double Seconds::*phase);
   // Whether the waiting for slower ranks is to be told apart from the exchange.
   bool apart() const { return setup_.options.phases_apart; }
-  // Before messages that all ranks take part in: where phases are to be apart, waits until every rank is
-  // here. Collective.
+  // Before and after messages that all ranks take part in: where phases are to be apart, waits until every
+  // rank is here, so that none computes on a core that another one needs for its messages. Collective.
   void meet();
   // Ends the last phase.
   const Seconds& end();

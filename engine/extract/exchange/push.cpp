@@ -62,6 +62,7 @@ Outcome exchange_push(const Setup& setup) {
   phases.enter(&Seconds::exchange);
   phases.meet();
   transfer.wait();
+  phases.meet();
 
   phases.enter(&Seconds::compute);
   world.collectively([&] {

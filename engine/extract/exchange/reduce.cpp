@@ -242,6 +242,7 @@ Outcome exchange_reduce(const Setup& setup) {
   phases.enter(&Seconds::exchange);
   phases.meet();
   setup.world.end_known(kept.incoming);
+  phases.meet();
   phases.enter(&Seconds::compute);
   unless_failed([&] { merge_all(setup, kept, outcome.finished); });
   for (const ReduceBuffers::Worker& worker : kept.workers) outcome.walked += worker.walked;

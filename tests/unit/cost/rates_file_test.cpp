@@ -84,7 +84,7 @@ TEST_F(RatesFile, ADamagedOneIsIgnored) {
     }
   }
   std::string later = whole;
-  later.replace(later.find("\"footwall_rates\": 2"), 19, "\"footwall_rates\": 9");
+  later.replace(later.find("\"footwall_rates\": 3"), 19, "\"footwall_rates\": 9");
   put(later);
   EXPECT_FALSE(read_rates(folder_, kKey));
   put(whole);
