@@ -61,8 +61,8 @@ void run_exchange(LoadedSurvey::State& state, const Plan& plan, const Input& inp
 Tally tally_of(const Ran& ran) {
   Tally tally;
   tally.sums.walked = tally.most_walked = ran.outcome.walked;
-  tally.sums.bytes = ran.traffic.bytes;
-  tally.sums.messages = ran.traffic.messages;
+  tally.sums.bytes = tally.most_bytes = ran.traffic.bytes;
+  tally.sums.messages = tally.most_messages = ran.traffic.messages;
   tally.sums.cache_hits = ran.outcome.cache_hits;
   tally.sums.cache_voxels = ran.outcome.cache_voxels;
   return tally;

@@ -84,6 +84,8 @@ struct Report {
   std::int64_t walked_here = 0;  // of them, by this rank: the only number that differs between ranks
   std::int64_t bytes_sent = 0;   // by the exchange phase, sizes included
   std::int64_t messages = 0;
+  std::int64_t most_bytes = 0;  // that one rank sent; of several extractions, the sum of each one's most
+  std::int64_t most_messages = 0;
   double load_max_over_mean = 1;  // of the voxels each rank walked; 1 where there are none
   double load_deviation = 0;      // standard deviation over ranks of the area (voxel^2) each is responsible
                                   // for: seed 004, equation 5.4, of this extraction

@@ -25,6 +25,8 @@ void add(const Tally& other, Tally& into) {
   sums.cache_voxels += other.sums.cache_voxels;
   sums.failed += other.sums.failed;
   into.most_walked = std::max(into.most_walked, other.most_walked);
+  into.most_bytes = std::max(into.most_bytes, other.most_bytes);
+  into.most_messages = std::max(into.most_messages, other.most_messages);
   for (std::size_t n = 0; n < into.slowest.size(); ++n) {
     into.slowest[n] = std::max(into.slowest[n], other.slowest[n]);
     into.quickest[n] = std::max(into.quickest[n], other.quickest[n]);
@@ -91,6 +93,8 @@ void fill_report(const Tally& all, int ranks, Report& report) {
   report.voxels = all.sums.walked;
   report.bytes_sent = all.sums.bytes;
   report.messages = all.sums.messages;
+  report.most_bytes = all.most_bytes;
+  report.most_messages = all.most_messages;
   report.cache_hits = all.sums.cache_hits;
   report.cache_voxels = all.sums.cache_voxels;
   report.checksum = static_cast<std::uint64_t>(all.sums.checksum);

@@ -21,7 +21,10 @@ struct Tally {
     std::int64_t cache_voxels = 0;
     std::int64_t failed = 0;
   } sums;
+  // Of the rank that has most.
   std::int64_t most_walked = 0;
+  std::int64_t most_bytes = 0;
+  std::int64_t most_messages = 0;
   // Of the slowest rank, and of the quickest with a minus sign: read, balance, voxelize, exchange, compute,
   // wait, total.
   std::array<double, 7> slowest{};

@@ -113,6 +113,8 @@ class Totals {
     predicted.total += group.predicted.total;
     report_.bytes_sent += group.bytes_sent;
     report_.messages += group.messages;
+    report_.most_bytes += group.most_bytes;
+    report_.most_messages += group.most_messages;
     report_.voxels += group.voxels;
     report_.walked_here += group.walked_here;
   }

@@ -39,19 +39,6 @@ void add_plane(std::uint64_t tile, int v_axis, std::size_t v, Mask& mask) {
   }
 }
 
-// Columns of a row that share a brick along u: byte c of the result = the bits of w in [first, first + 8) of
-// the column at c.
-std::uint64_t tile_of(const std::int32_t* lo, const std::int32_t* hi, int columns, std::int32_t first) {
-  std::uint64_t tile = 0;
-  for (int c = 0; c < columns; ++c) {
-    const std::int32_t from = std::clamp(lo[c] - first, 0, 8);
-    const std::int32_t to = std::clamp(hi[c] - first + 1, 0, 8);
-    const std::uint64_t bits = (std::uint64_t{0xFF} << from) & ((std::uint64_t{1} << to) - 1);
-    tile |= bits << (8 * c);
-  }
-  return tile;
-}
-
 template <typename T>
 T* zeros(std::int64_t count) {
   auto* memory =
@@ -105,35 +92,15 @@ std::int64_t VoxelSet::count() const {
 }
 
 void VoxelSet::add(const voxelize::Row& row) {
-  const auto u_axis = static_cast<std::size_t>(row.u_axis);
-  const auto v_axis = static_cast<std::size_t>(row.v_axis);
-  const auto w_axis = static_cast<std::size_t>(row.w_axis);
-  const auto columns = static_cast<std::int64_t>(row.lo.size());
   const bool turned = row.w_axis < row.u_axis;
   survey::Index brick{};
-  brick[v_axis] = row.v >> 3;
-  for (std::int64_t c = 0; c < columns;) {
-    const std::int64_t u = row.u0 + c;
-    const std::int64_t n = std::min(columns - c, kBrickSide - (u & 7));
-    const std::int32_t* lo = row.lo.data() + c;
-    const std::int32_t* hi = row.hi.data() + c;
-    c += n;
-    std::int32_t lowest = std::numeric_limits<std::int32_t>::max();
-    std::int32_t highest = std::numeric_limits<std::int32_t>::min();
-    for (std::int64_t m = 0; m < n; ++m) {
-      const bool some = lo[m] <= hi[m];
-      lowest = some ? std::min(lowest, lo[m]) : lowest;
-      highest = some ? std::max(highest, hi[m]) : highest;
-    }
-    if (lowest > highest) continue;
-    brick[u_axis] = u >> 3;
-    for (std::int32_t w = lowest >> 3; w <= highest >> 3; ++w) {
-      std::uint64_t tile = tile_of(lo, hi, static_cast<int>(n), w * 8) << (8 * (u & 7));
-      if (tile == 0) continue;
-      if (turned) tile = transposed(tile);
-      brick[w_axis] = w;
-      add_plane(tile, row.v_axis, static_cast<std::size_t>(row.v & 7), mask_at(box_.place(brick)));
-    }
+  brick[static_cast<std::size_t>(row.v_axis)] = row.v >> 3;
+  list_tiles(row.lo, row.hi, static_cast<std::int32_t>(row.u0), tiles_);
+  for (const RowTile& tile : tiles_) {
+    brick[static_cast<std::size_t>(row.u_axis)] = tile.u;
+    brick[static_cast<std::size_t>(row.w_axis)] = tile.w;
+    add_plane(turned ? transposed(tile.bits) : tile.bits, row.v_axis, static_cast<std::size_t>(row.v & 7),
+              mask_at(box_.place(brick)));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/extract/cache/brick.h"
+#include "engine/extract/cache/row_tiles.h"
 #include "engine/voxelize/rows.h"
 
 namespace footwall::extract {
@@ -71,6 +72,7 @@ class VoxelSet {
   Zeros<std::uint64_t> occupied_;                                   // a bit for each place
   std::vector<std::int64_t> places_;                                // by slot
   std::vector<Mask> masks_;                                         // by slot; none of them empty
+  std::vector<RowTile> tiles_;                                      // of the row that is added
   std::int64_t lowest_ = std::numeric_limits<std::int64_t>::max();  // words of occupied_ that may not be 0
   std::int64_t highest_ = -1;
 };

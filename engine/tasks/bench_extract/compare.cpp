@@ -43,8 +43,8 @@ std::vector<AutoAgainstSeed> auto_against_seed(const BenchResult& result) {
 std::optional<double> exchange_model(const BenchResult& result, const BenchCell& cell) {
   const extract::MachineRates* rates = result.rates_of(cell.ranks);
   if (rates == nullptr || cell.ranks == 1) return std::nullopt;
-  return (cell.median(&BenchRun::bytes) * rates->byte + cell.median(&BenchRun::messages) * rates->alpha) /
-         cell.ranks;
+  return cell.median(&BenchRun::most_bytes) * rates->byte +
+         cell.median(&BenchRun::most_messages) * rates->alpha;
 }
 
 std::vector<Table> comparison_tables(const BenchResult& result) {

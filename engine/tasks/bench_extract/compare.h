@@ -23,8 +23,8 @@ struct AutoAgainstSeed {
 // Of every benchmark and number of ranks above 1 that ran both.
 std::vector<AutoAgainstSeed> auto_against_seed(const BenchResult& result);
 
-// Seconds that the exchanges of a cell would take at least: a rank's mean share of the bytes and of the
-// messages, at the rates measured for so many ranks (seed 004, equation 3.2). Nothing without rates.
+// Seconds that the exchanges of a cell would take at least: the bytes and the messages of the rank that sends
+// most, at the rates measured for so many ranks (seed 004, equation 3.2). Nothing without rates.
 std::optional<double> exchange_model(const BenchResult& result, const BenchCell& cell);
 
 std::vector<Table> comparison_tables(const BenchResult& result);

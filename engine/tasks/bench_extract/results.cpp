@@ -62,6 +62,8 @@ BenchRun run_from(const std::string& result_json) {
     seconds.at("wait").get_to(run.wait);
     json.at("bytes_sent").get_to(run.bytes);
     json.at("messages").get_to(run.messages);
+    json.at("most_bytes_sent").get_to(run.most_bytes);
+    json.at("most_messages").get_to(run.most_messages);
     json.at("cache_hits").get_to(run.cache_hits);
     json.at("load_deviation").get_to(run.load_deviation);
     json.at("load_max_over_mean").get_to(run.load_max_over_mean);

@@ -23,6 +23,7 @@ struct BenchRun {
   double slowest_rank = 0, quickest_rank = 0;
   double apply = 0, balance = 0, voxelize = 0, exchange = 0, compute = 0, wait = 0;
   double bytes = 0, messages = 0, cache_hits = 0;
+  double most_bytes = 0, most_messages = 0;  // of the rank that sent most
   double load_deviation = 0, load_max_over_mean = 1;
   std::string checksum;
 };

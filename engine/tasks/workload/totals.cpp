@@ -33,6 +33,8 @@ void WorkloadTotals::add(const extract::Result& result) {
   sum_.voxels += r.voxels;
   sum_.bytes_sent += r.bytes_sent;
   sum_.messages += r.messages;
+  sum_.most_bytes += r.most_bytes;
+  sum_.most_messages += r.most_messages;
   sum_.cache_hits += r.cache_hits;
   sum_.cache_voxels = std::max(sum_.cache_voxels, r.cache_voxels);
   add_phases(r.seconds, sum_.seconds);
@@ -63,6 +65,8 @@ nlohmann::json WorkloadTotals::json(double slowest, double quickest) const {
           {"voxels", sum_.voxels},
           {"bytes_sent", sum_.bytes_sent},
           {"messages", sum_.messages},
+          {"most_bytes_sent", sum_.most_bytes},
+          {"most_messages", sum_.most_messages},
           {"cache_hits", sum_.cache_hits},
           {"cache_voxels", sum_.cache_voxels},
           {"load_max_over_mean", extracts_ > 0 ? max_over_mean_ / extracts : 1.0},

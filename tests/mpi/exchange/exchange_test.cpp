@@ -81,6 +81,10 @@ TEST_P(Exchange, PhasesApartGiveTheSameAndTellTheWaiting) {
     EXPECT_EQ(apart.checksum, usual.checksum);
     EXPECT_EQ(apart.bytes_sent, usual.bytes_sent);
     EXPECT_EQ(apart.messages, usual.messages);
+    EXPECT_GE(apart.most_bytes * world.size(), apart.bytes_sent);
+    EXPECT_LE(apart.most_bytes, apart.bytes_sent);
+    EXPECT_GE(apart.most_messages * world.size(), apart.messages);
+    EXPECT_LE(apart.most_messages, apart.messages);
     EXPECT_EQ(apart.seconds.wait > 0, world.size() > 1);
     const Seconds& s = apart.seconds;
     EXPECT_LE(apart.quickest.wait, s.wait);

@@ -23,6 +23,8 @@ std::string answer(double seconds, const std::string& checksum) {
                           {"wait", 0}}},
                         {"bytes_sent", 1},
                         {"messages", 1},
+                        {"most_bytes_sent", 1},
+                        {"most_messages", 1},
                         {"cache_hits", 0},
                         {"load_deviation", 0},
                         {"load_max_over_mean", 1},

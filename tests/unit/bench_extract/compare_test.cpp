@@ -18,16 +18,16 @@ TEST(Compare, AutoWithTheFastestPairOfTheSeed) {
   EXPECT_DOUBLE_EQ(all[0].waiting_exchange_ratio, 3 / 0.5);
 }
 
-TEST(Compare, TheModelIsBytesAndMessagesOfARank) {
+TEST(Compare, TheModelIsBytesAndMessagesOfTheBusiestRank) {
   const BenchResult result = made_up();
   const auto model = exchange_model(result, *result.find(2, 2, {"minimum", "none"}));
   ASSERT_TRUE(model);
-  EXPECT_NEAR(*model, (4e6 * 1e-7 + 100 * 1e-3) / 2, 1e-12);
+  EXPECT_NEAR(*model, 3e6 * 1e-7 + 60 * 1e-3, 1e-12);
   EXPECT_FALSE(exchange_model(result, *result.find(2, 1, {"minimum", "none"})));
   const std::vector<Table> tables = comparison_tables(result);
   ASSERT_EQ(tables.size(), 3U);
   EXPECT_EQ(tables[1].rows.size(), 2U);
-  EXPECT_EQ(tables[1].rows[0].back(), "8.00");  // 2 s measured over 0.25
+  EXPECT_EQ(tables[1].rows[0].back(), "5.56");  // 2 s measured over 0.36
 }
 
 TEST(Compare, SeedPairs) {

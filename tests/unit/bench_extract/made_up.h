@@ -11,6 +11,8 @@ inline BenchRun run_of(double seconds, double exchange = 1) {
   run.exchange = exchange;
   run.bytes = 4e6;
   run.messages = 100;
+  run.most_bytes = 3e6;
+  run.most_messages = 60;
   run.load_deviation = 1234;
   run.checksum = "0123456789abcdef";
   return run;
