@@ -93,19 +93,22 @@ struct Bench {
           how.launch.ranks = ranks;
           how.options = options_for(options, pair);
           const JobContext part = job.part(at * share, (at + 1) * share);
-          const BenchRun one = run_from(engine.run(how, part));
           const std::string me = fmt::format("{} on {} ranks", name_of(pair), ranks);
-          if (first && *first != one.checksum) {
-            throw Error(ErrorCode::kInternal,
-                        fmt::format("benchmark {}: {} gives other results than {}", benchmark, me, whose),
-                        "no time was counted; please report it");
-          }
-          if (!first) whose = me;
-          first = one.checksum;
-          cell(benchmark, ranks, pair).runs.push_back(one);
+          const auto checked_run = [&] {
+            BenchRun one = run_from(engine.run(how, part));
+            if (first && *first != one.checksum) {
+              throw Error(ErrorCode::kInternal,
+                          fmt::format("benchmark {}: {} gives other results than {}", benchmark, me, whose),
+                          "no time was counted; please report it");
+            }
+            if (!first) whose = me;
+            first = one.checksum;
+            return one;
+          };
+          cell(benchmark, ranks, pair).runs.push_back(checked_run());
           if (ranks == 1 || round >= options.apart) continue;
           how.options.phases_apart = true;
-          cell(benchmark, ranks, pair).apart.push_back(run_from(engine.run(how, part)));
+          cell(benchmark, ranks, pair).apart.push_back(checked_run());
         }
       }
     }

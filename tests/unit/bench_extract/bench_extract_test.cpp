@@ -99,6 +99,15 @@ TEST(BenchExtract, CountsNoTimeWhereResultsDiffer) {
   }
 }
 
+TEST(BenchExtract, RunsWithPhasesApartMustGiveTheSame) {
+  BenchEngine engine;
+  engine.run = [](const WorkloadRunOptions& options, const JobContext&) {
+    return answer(1, options.options.phases_apart ? "b" : "a");
+  };
+  engine.rates = [](int, const JobContext&) { return extract::MachineRates{}; };
+  EXPECT_THROW(bench_extract(small(), engine, {}), Error);
+}
+
 TEST(BenchExtract, TheWorkloadsAreTheSeeds) {
   const WorkloadShape shape = shape_of_benchmark(2, 1);
   EXPECT_EQ(shape.size, (survey::Index{200, 200, 100}));
