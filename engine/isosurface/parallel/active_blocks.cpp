@@ -18,8 +18,18 @@ survey::Box bricks_of(const survey::Box& cells) {
   return bricks;
 }
 
-// The smallest box around the active bricks of `cells`, and how many these are.
-survey::Box tight(const survey::Box& cells, const Bricks& bricks, float isovalue, std::int64_t& active) {
+bool is_wanted(const Wanted& wanted, const survey::Index& brick) {
+  const Bricks& bricks = *wanted.bricks;
+  if (is_active(bricks, brick, wanted.isovalue)) return true;
+  if (!wanted.caps) return false;
+  bool border = false;
+  for (int axis = 0; axis < 3; ++axis)
+    border = border || brick[axis] == 0 || brick[axis] == bricks.dims[axis] - 1;
+  return border && wanted.isovalue <= bricks.max[place_of(bricks, brick)];
+}
+
+// The smallest box around the wanted bricks of `cells`, and how many these are.
+survey::Box tight(const survey::Box& cells, const Wanted& wanted, std::int64_t& active) {
   const survey::Box inside = bricks_of(cells);
   survey::Box around{inside.hi, inside.lo};
   active = 0;
@@ -27,7 +37,7 @@ survey::Box tight(const survey::Box& cells, const Bricks& bricks, float isovalue
     for (std::int64_t b = inside.lo[1]; b < inside.hi[1]; ++b) {
       for (std::int64_t c = inside.lo[2]; c < inside.hi[2]; ++c) {
         const survey::Index brick{a, b, c};
-        if (!is_active(bricks, brick, isovalue)) continue;
+        if (!is_wanted(wanted, brick)) continue;
         ++active;
         for (int axis = 0; axis < 3; ++axis) {
           around.lo[axis] = std::min(around.lo[axis], brick[axis]);
@@ -43,13 +53,12 @@ survey::Box tight(const survey::Box& cells, const Bricks& bricks, float isovalue
   return intersection(around, cells);
 }
 
-void add_blocks(const survey::Box& cells, const Bricks* bricks, float isovalue, std::int64_t most_cells,
-                std::vector<survey::Box>& blocks) {
+void add_blocks(const survey::Box& cells, const Wanted& wanted, std::vector<survey::Box>& blocks) {
   survey::Box box = cells;
   bool sparse = false;
-  if (bricks != nullptr) {
+  if (wanted.bricks != nullptr) {
     std::int64_t active = 0;
-    box = tight(cells, *bricks, isovalue, active);
+    box = tight(cells, wanted, active);
     if (active == 0) return;
     sparse = box.count() > kWorthCutting && active * 4 < bricks_of(box).count();
   }
@@ -57,7 +66,7 @@ void add_blocks(const survey::Box& cells, const Bricks* bricks, float isovalue, 
   for (int axis = 1; axis < 3; ++axis) {
     if (box.size(axis) > box.size(longest)) longest = axis;
   }
-  if ((!sparse && box.count() <= most_cells) || box.size(longest) <= kBrick) {
+  if ((!sparse && box.count() <= wanted.most_cells) || box.size(longest) <= kBrick) {
     blocks.push_back(box);
     return;
   }
@@ -67,17 +76,15 @@ void add_blocks(const survey::Box& cells, const Bricks* bricks, float isovalue, 
   survey::Box second = box;
   first.hi[longest] = cut;
   second.lo[longest] = cut;
-  add_blocks(first, bricks, isovalue, most_cells, blocks);
-  add_blocks(second, bricks, isovalue, most_cells, blocks);
+  add_blocks(first, wanted, blocks);
+  add_blocks(second, wanted, blocks);
 }
 
 }  // namespace
 
-std::vector<survey::Box> active_blocks(const survey::Box& cells, const Bricks* bricks, float isovalue,
-                                       std::int64_t most_cells) {
+std::vector<survey::Box> active_blocks(const survey::Box& cells, const Wanted& wanted) {
   std::vector<survey::Box> blocks;
-  if (cells.empty()) return blocks;
-  add_blocks(cells, bricks, isovalue, std::max<std::int64_t>(1, most_cells), blocks);
+  if (!cells.empty()) add_blocks(cells, wanted, blocks);
   std::sort(blocks.begin(), blocks.end(),
             [](const survey::Box& a, const survey::Box& b) { return a.lo < b.lo; });
   return blocks;

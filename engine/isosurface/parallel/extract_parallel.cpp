@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "engine/isosurface/cap.h"
 #include "engine/isosurface/parallel/active_blocks.h"
 #include "engine/isosurface/parallel/detail/stretches.h"
 
@@ -14,12 +15,36 @@ namespace {
 // Blocks of one pillar in the order of the triangles in its rows: those above each other ascend by sample.
 std::vector<survey::Box> blocks_of_rank(const Pillars& pillars, int rank, const ParallelOptions& options,
                                         float isovalue) {
+  const Wanted wanted{options.bricks, isovalue, options.cap, options.block_cells};
   std::vector<survey::Box> blocks;
   for (const survey::Box& cells : pillars.of_rank(rank)) {
-    const std::vector<survey::Box> some = active_blocks(cells, options.bricks, isovalue, options.block_cells);
+    const std::vector<survey::Box> some = active_blocks(cells, wanted);
     blocks.insert(blocks.end(), some.begin(), some.end());
   }
   return blocks;
+}
+
+// Closes a block's surface where the block reaches the volume's border. A cap is made from just the samples
+// of the cells, without those around them that gradients need.
+void cap_block(const Field& field, const Pillars& pillars, const survey::Box& cells, float isovalue,
+               Surface& surface) {
+  const survey::Box samples = pillars.samples_of(cells, false);
+  bool at_border = false;
+  for (int axis = 0; axis < 3; ++axis)
+    at_border = at_border || samples.lo[axis] == 0 || samples.hi[axis] == pillars.volume()[axis];
+  if (!at_border) return;
+  std::vector<float> values(static_cast<std::size_t>(samples.count()));
+  float* to = values.data();
+  for (std::int64_t i = samples.lo[0]; i < samples.hi[0]; ++i) {
+    for (std::int64_t j = samples.lo[1]; j < samples.hi[1]; ++j) {
+      const std::int64_t row = (i - field.origin[0]) * field.size[1] + j - field.origin[1];
+      const float* const from = field.values.data() + row * field.size[2] + samples.lo[2] - field.origin[2];
+      to = std::copy_n(from, samples.size(2), to);
+    }
+  }
+  const Field inner{
+      values, {samples.size(0), samples.size(1), samples.size(2)}, samples.lo, pillars.volume()};
+  cap(inner, isovalue, surface);
 }
 
 void extract_block(const survey::Box& cells, const Pillars& pillars, const FieldOf& field_of, float isovalue,
@@ -35,6 +60,7 @@ void extract_block(const survey::Box& cells, const Pillars& pillars, const Field
   how.cells = cells;
   how.bricks = options.bricks;
   options.kernel(field, isovalue, how, surface);
+  if (options.cap) cap_block(field, pillars, cells, isovalue, surface);
   into.samples_read += samples.count();
   into.read_seconds += read - start;
   into.busy_seconds += omp_get_wtime() - read;
@@ -50,6 +76,7 @@ void extract_parallel(const comm::Communicator& world, const Pillars& pillars, c
   // 1. Each rank the blocks of its pillars.
   world.collectively([&] {
     require(world.size() == pillars.ranks(), "the pillars are those of these ranks");
+    require(!options.cap || options.keys, "a capped surface has keys");
     into.triangles = 0;
     into.samples_read = 0;
     into.read_seconds = 0;

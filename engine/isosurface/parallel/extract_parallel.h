@@ -24,9 +24,10 @@ struct ParallelOptions {
   // The kernel: `extract`, or a row of registry.h.
   void (*kernel)(const Field&, float, const ExtractOptions&, Surface&) = &extract;
   bool normals = true;
-  bool keys = false;                                 // needed by weld() (weld.h)
-  int threads = 1;                                   // of each rank
-  const Bricks* bricks = nullptr;                    // of the whole volume, or none: every cell is looked at
+  bool keys = false;               // needed by weld() (weld.h)
+  bool cap = false;                // closes the surface at the volume's border (cap.h); needs keys
+  int threads = 1;                 // of each rank
+  const Bricks* bricks = nullptr;  // of the whole volume, or none: every cell is looked at
   std::int64_t block_cells = std::int64_t{1} << 24;  // that are read at once: 64 MiB
 };
 
@@ -34,7 +35,7 @@ struct ParallelOptions {
 struct Extraction {
   // One for each block that was looked at; blocks above each other ascend by sample.
   std::vector<Piece> pieces;
-  std::uint64_t triangles = 0;    // of all ranks
+  std::uint64_t triangles = 0;    // of all ranks, caps included
   std::int64_t samples_read = 0;  // by this rank, those between blocks as often as they were read
   double read_seconds = 0;        // in FieldOf
   double busy_seconds = 0;        // in the kernel

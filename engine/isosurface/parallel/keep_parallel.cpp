@@ -9,7 +9,7 @@ namespace detail {
 void spread_numbers(comm::Communicator& world, MeshPart& part) {
   world.collectively([&] {
     part.numbers.clear();
-    part.numbers.reserve(part.positions.size());
+    part.numbers.reserve(part.mesh.positions.size());
     for (const Run& run : part.vertex_runs) {
       for (std::uint32_t n = 0; n < run.count; ++n)
         part.numbers.push_back(static_cast<std::uint32_t>(run.first + n));
@@ -59,8 +59,8 @@ MeshPart keep(comm::Communicator& world, const MeshPart& part, std::span<const s
     left.volume = part.volume;
     left.vertex_slots = part.vertex_slots;
     left.triangle_slots = part.triangle_slots;
-    left.repeated = part.repeated;
-    std::vector<std::uint32_t> places(part.positions.size(), kGone);
+    left.computed = part.computed;
+    std::vector<std::uint32_t> places(part.mesh.positions.size(), kGone);
     std::uint32_t count = 0;
     for (std::size_t n = 0; n < part.own; ++n) {
       if (kept[n] != 0) places[n] = count++;
@@ -80,20 +80,22 @@ MeshPart keep(comm::Communicator& world, const MeshPart& part, std::span<const s
         if (places[vertex] != kGone) left.asked_by[rank].push_back(places[vertex]);
       }
     }
-    copy_kept(part.positions, places, count, left.positions);
-    copy_kept(part.normals, places, count, left.normals);
-    copy_kept(part.keys, places, count, left.keys);
-    const auto stays = [&](std::size_t triangle) { return places[part.triangles[triangle][0]] != kGone; };
+    copy_kept(part.mesh.positions, places, count, left.mesh.positions);
+    copy_kept(part.mesh.normals, places, count, left.mesh.normals);
+    copy_kept(part.mesh.keys, places, count, left.mesh.keys);
+    const auto stays = [&](std::size_t triangle) {
+      return places[part.mesh.triangles[triangle][0]] != kGone;
+    };
     left.vertex_runs = thinned(part.vertex_runs, [&](std::size_t vertex) { return kept[vertex] != 0; });
     left.triangle_runs = thinned(part.triangle_runs, stays);
     std::size_t triangles = 0;
     for (const Run& run : left.triangle_runs) triangles += run.count;
-    left.triangles.resize_uninitialised(triangles);
+    left.mesh.triangles.resize_uninitialised(triangles);
     std::size_t to = 0;
-    for (std::size_t n = 0; n < part.triangles.size(); ++n) {
+    for (std::size_t n = 0; n < part.mesh.triangles.size(); ++n) {
       if (!stays(n)) continue;
-      const Triangle& old = part.triangles[n];
-      left.triangles[to++] = {places[old[0]], places[old[1]], places[old[2]]};
+      const Triangle& old = part.mesh.triangles[n];
+      left.mesh.triangles[to++] = {places[old[0]], places[old[1]], places[old[2]]};
     }
   });
   left.all_vertices = number_runs(world, left.vertex_slots, left.vertex_runs);

@@ -22,10 +22,7 @@ namespace footwall::isosurface {
 // rank use them. Own vertices and triangles stand in the order of their numbers.
 struct MeshPart {
   survey::Index volume{0, 0, 0};
-  PageVector<Point> positions;  // index space of the volume
-  PageVector<Point> normals;    // none if the pieces have none
-  PageVector<VertexKey> keys;
-  PageVector<Triangle> triangles;  // indices into the above
+  Surface mesh;  // with keys; triangles name own vertices and guests; row_first and cells are not set
   std::size_t own = 0;
   std::vector<std::uint32_t> asked_from;  // by rank: guests that belong to it
   // By rank: own vertices that are guests there, in their order there.
@@ -40,7 +37,7 @@ struct MeshPart {
   std::uint64_t vertex_slots = 0;  // see number_runs.h
   std::uint64_t triangle_slots = 0;
 
-  std::uint64_t repeated = 0;  // vertices that this rank computed beyond those that it owns
+  std::uint64_t computed = 0;  // vertices that this rank's pieces had, those between pieces more than once
 };
 
 // normals: whether the pieces have them. They must have keys, and are released. Collective. Throws on all
@@ -75,7 +72,7 @@ std::vector<T> fetch_for_guests(comm::Communicator& world, const MeshPart& part,
   });
   answers = world.exchange(std::move(answers));
   return world.collectively([&] {
-    std::vector<T> values(part.positions.size() - part.own);
+    std::vector<T> values(part.mesh.positions.size() - part.own);
     std::size_t at = 0;
     for (const comm::Bytes& bytes : answers) {
       if (!bytes.empty()) std::memcpy(values.data() + at, bytes.data(), bytes.size());

@@ -146,7 +146,7 @@ void Welding::find_vertices() {
     for (; n < entries.size() && entries[n].order == first.order; ++n)
       places_[entries[n].piece][entries[n].vertex] = place;
   }
-  part_.repeated = all - own_.size();
+  part_.computed = all;
 }
 
 std::vector<comm::Bytes> Welding::guests_by_owner() {
@@ -236,13 +236,13 @@ void Welding::copy_vertices() {
   const std::size_t all = own_.size() + guests_.size();
   part_.volume = pillars_.volume();
   part_.own = own_.size();
-  part_.positions.resize_uninitialised(all);
-  part_.keys.resize_uninitialised(all);
-  if (normals_) part_.normals.resize_uninitialised(all);
+  part_.mesh.positions.resize_uninitialised(all);
+  part_.mesh.keys.resize_uninitialised(all);
+  if (normals_) part_.mesh.normals.resize_uninitialised(all);
   const auto put = [&](std::size_t place, const Guest& vertex) {
-    part_.positions[place] = vertex.position;
-    part_.keys[place] = vertex.key;
-    if (normals_) part_.normals[place] = vertex.normal;
+    part_.mesh.positions[place] = vertex.position;
+    part_.mesh.keys[place] = vertex.key;
+    if (normals_) part_.mesh.normals[place] = vertex.normal;
   };
   const auto found = [&](const Entry& entry) {
     if (entry.piece == pieces_.size()) return orphans_[entry.vertex];
@@ -266,8 +266,8 @@ void Welding::copy_triangles() {
   const std::vector<detail::Stretch> stretches = detail::stretches_of(pillars_, pieces_);
   std::size_t all = 0;
   for (const Piece& piece : pieces_) all += piece.surface.triangles.size();
-  part_.triangles.resize_uninitialised(all);
-  Triangle* to = part_.triangles.data();
+  part_.mesh.triangles.resize_uninitialised(all);
+  Triangle* to = part_.mesh.triangles.data();
   const auto own = static_cast<std::uint32_t>(own_.size());
   for (const detail::Stretch& stretch : stretches) {
     const std::vector<std::uint32_t>& places = places_[stretch.piece];
