@@ -1,5 +1,5 @@
-// The MPI program: runs one batch job or scripted workload, or makes one attribute volume, on all ranks, or
-// checks that they work together. Exit 0 done, 1 failed, 2 wrong usage, 75 told to make room (SIGTERM; run it
+// The MPI program: runs one batch job or scripted workload, or makes one attribute volume or isosurface, on all
+// ranks, or checks that they work together. Exit 0 done, 1 failed, 2 wrong usage, 75 told to make room (SIGTERM; run it
 // again and it goes on), 130 cancelled; a failure is printed once.
 #include <signal.h>
 #include <sys/prctl.h>
@@ -13,6 +13,7 @@
 #include "engine/comm/environment.h"
 #include "engine/session/attribute.h"
 #include "engine/session/batch.h"
+#include "engine/session/isosurface_job.h"
 #include "engine/session/lonely_rank.h"
 
 namespace {
@@ -61,6 +62,9 @@ int run(const Communicator& world, int argc, char** argv) {
   CLI::App* attribute =
       app.add_subcommand("attribute", "makes an attribute volume; footwall attribute starts it");
   attribute->add_option("JOB", job, "what to make, JSON")->required();
+  CLI::App* isosurface =
+      app.add_subcommand("isosurface", "extracts an isosurface; footwall isosurface starts it");
+  isosurface->add_option("JOB", job, "what to extract, JSON")->required();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -74,6 +78,8 @@ int run(const Communicator& world, int argc, char** argv) {
     workload.run(world);
   } else if (attribute->parsed()) {
     footwall::session::run_attribute(world, job, footwall::app::running_job(world));
+  } else if (isosurface->parsed()) {
+    footwall::session::run_isosurface(world, job, footwall::app::running_job(world));
   } else {
     footwall::app::batch(world, job, options);
   }

@@ -2,6 +2,7 @@
 
 #include <mpi.h>
 #include <omp.h>
+#include <time.h>
 
 #include <algorithm>
 
@@ -11,6 +12,12 @@
 
 namespace footwall::isosurface {
 namespace {
+
+double processor_seconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
 
 // Blocks of one pillar in the order of the triangles in its rows: those above each other ascend by sample.
 std::vector<survey::Box> blocks_of_rank(const Pillars& pillars, int rank, const ParallelOptions& options,
@@ -52,7 +59,8 @@ void extract_block(const survey::Box& cells, const Pillars& pillars, const Field
   const survey::Box samples = pillars.samples_of(cells, options.normals);
   const double start = omp_get_wtime();
   const Field field = field_of(samples);
-  const double read = omp_get_wtime();
+  into.read_seconds += omp_get_wtime() - start;
+  const double busy = processor_seconds();
   ExtractOptions how;
   how.normals = options.normals;
   how.keys = options.keys;
@@ -62,8 +70,7 @@ void extract_block(const survey::Box& cells, const Pillars& pillars, const Field
   options.kernel(field, isovalue, how, surface);
   if (options.cap) cap_block(field, pillars, cells, isovalue, surface);
   into.samples_read += samples.count();
-  into.read_seconds += read - start;
-  into.busy_seconds += omp_get_wtime() - read;
+  into.busy_seconds += processor_seconds() - busy;
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ struct Extraction {
   std::uint64_t triangles = 0;    // of all ranks, caps included
   std::int64_t samples_read = 0;  // by this rank, those between blocks as often as they were read
   double read_seconds = 0;        // in FieldOf
-  double busy_seconds = 0;        // in the kernel
+  double busy_seconds = 0;  // processor time in the kernel: ranks that share a core are no busier for it
 };
 
 // Collective; the same Error on all ranks (AgreedError): what FieldOf and the kernel throw on any of them,
