@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "engine/isosurface/cap.h"
 #include "storage/base/error.h"
 
 namespace footwall::isosurface {
@@ -28,6 +29,10 @@ std::string words(const Triangle& t) {
 }
 
 std::string words(VertexKey key, const survey::Index& volume_size) {
+  if ((key & kSampleKey) != 0) {
+    const KeyPlace place = place_of(4 * (key & ~kSampleKey), volume_size);
+    return fmt::format("the sample ({}, {}, {})", place.sample[0], place.sample[1], place.sample[2]);
+  }
   const KeyPlace place = place_of(key, volume_size);
   return fmt::format("the {} of ({}, {}, {})", kAxisNames[place.axis], place.sample[0], place.sample[1],
                      place.sample[2]);

@@ -50,8 +50,8 @@ class Cubes {
     }
     if (signs == 0 || signs == 255) return;
     const Alternative alternative =
-        rules_.is_undecided(signs) ? rules_.decide(signs, values, draft_.isovalue) : Alternative{0};
-    const Pattern& pattern = rules_.pattern_of(signs, alternative);
+        rules_.undecided(signs) ? rules_.decide(signs, values, draft_.isovalue) : Alternative{0};
+    const Pattern& pattern = rules_.pattern(signs, alternative);
     std::array<std::uint32_t, kCentre + 1> vertex{};
     std::array<std::uint32_t, kCentre> loop;
     std::size_t count = 0;

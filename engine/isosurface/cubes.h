@@ -2,8 +2,8 @@
 // Based on: seed 002, section 2; differs in the table (every case with its face and interior alternatives
 // instead of 14 or 128), and in that normals are computed.
 #pragma once
+#include "engine/isosurface/case_tables.h"
 #include "engine/isosurface/extract.h"
-#include "engine/isosurface/rules.h"
 
 namespace footwall::isosurface {
 

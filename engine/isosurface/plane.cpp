@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/isosurface/detail/half_table.h"
 #include "engine/isosurface/detail/sweep.h"
 
 namespace footwall::isosurface {
@@ -112,7 +113,8 @@ class TwoPlanes {
 void extract_plane(const Field& field, float isovalue, const ExtractOptions& options, const CaseRules& rules,
                    Surface& into) {
   detail::Draft draft(field, isovalue, options, "plane");
-  detail::Sweep<TwoPlanes>(draft, rules).run();
+  const detail::PatternTable table(rules);
+  detail::Sweep<TwoPlanes, detail::PatternTable>(draft, table).run();
   draft.hand_over(into);
 }
 

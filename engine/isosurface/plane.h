@@ -4,8 +4,8 @@
 // (the paper's Z axis is our slowest one), that the interior of a cell is decided, too, and that intersections
 // are numbered row by row, so that the order is that of Surface without sorting.
 #pragma once
+#include "engine/isosurface/case_tables.h"
 #include "engine/isosurface/extract.h"
-#include "engine/isosurface/rules.h"
 
 namespace footwall::isosurface {
 

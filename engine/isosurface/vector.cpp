@@ -102,7 +102,8 @@ class Arrays {
 
 void extract_vector(const Field& field, float isovalue, const ExtractOptions& options, Surface& into) {
   detail::Draft draft(field, isovalue, options, "vector");
-  detail::Sweep<Arrays>(draft, detail::half_table_rules()).run();
+  static const detail::HalfTable table;
+  detail::Sweep<Arrays, detail::HalfTable>(draft, table).run();
   draft.hand_over(into);
 }
 

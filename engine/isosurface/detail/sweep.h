@@ -8,8 +8,9 @@
 //   void intersect(i, crossing)       crossing[axis]: for each edge of plane i along `axis`, not zero where its
 //                                     ends' signs differ (axis 0: edges to plane i + 1, if there is one)
 //   float t(axis, i, j, k)            where such an edge is crossed
-//   Point gradient(i, j, k)           of a sample of plane i or i + 1
+//   Point gradient(i, j, k)           of a sample of plane i or i + 1, twice
 //
+// A class Table (half_table.h) says what triangles a cell has.
 // Indices i, j, k count from the field's first sample.
 #pragma once
 #include <algorithm>
@@ -19,7 +20,7 @@
 #include <vector>
 
 #include "engine/isosurface/detail/draft.h"
-#include "engine/isosurface/rules.h"
+#include "engine/isosurface/case_tables.h"
 
 namespace footwall::isosurface::detail {
 
@@ -40,11 +41,11 @@ struct PlaneShape {
   }
 };
 
-template <class Planes>
+template <class Planes, class Table>
 class Sweep {
  public:
-  Sweep(Draft& draft, const CaseRules& rules)
-      : draft_(draft), rules_(rules), shape_(draft), planes_(draft, shape_) {
+  Sweep(Draft& draft, const Table& table)
+      : draft_(draft), table_(table), shape_(draft), planes_(draft, shape_) {
     for (auto& axis : crossing_) axis.resize(shape_.room());
     for (auto& plane : numbers_) {
       for (auto& axis : plane) axis.resize(shape_.room());
@@ -166,14 +167,14 @@ class Sweep {
     for_each_active(cells, j, [&](std::int64_t k, std::size_t p) {
       const unsigned signs = cells.signs[p];
       cells.alternatives[p] = 0;
-      if (rules_.is_undecided(signs)) {
+      if (table_.undecided(signs)) {
         std::array<float, 8> values;
         for (int corner = 0; corner < 8; ++corner) {
           values[corner] = *draft_.at(i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2));
         }
-        cells.alternatives[p] = rules_.decide(signs, values, draft_.isovalue);
+        cells.alternatives[p] = table_.decide(signs, values, draft_.isovalue);
       }
-      if (rules_.pattern_of(signs, cells.alternatives[p]).has_centre) {
+      if (table_.entry(signs, cells.alternatives[p]).has_centre) {
         cells.centres[p] = draft_.reserve_centre(i, j, k);
       }
     });
@@ -185,21 +186,21 @@ class Sweep {
     for (std::int64_t j = draft_.cells.lo[1]; j < draft_.cells.hi[1]; ++j) {
       draft_.begin_row();
       for_each_active(cells, j, [&](std::int64_t, std::size_t p) {
-        const Pattern& pattern = rules_.pattern_of(cells.signs[p], cells.alternatives[p]);
+        const auto entry = table_.entry(cells.signs[p], cells.alternatives[p]);
         std::array<std::uint32_t, kCentre + 1> vertex;
         for (int edge = 0; edge < kCentre; ++edge) vertex[edge] = number_on(edge, i, p);
-        vertex[kCentre] = pattern.has_centre ? cells.centres[p] : 0;
-        if (pattern.has_centre) {
+        vertex[kCentre] = cells.centres[p];
+        if (entry.has_centre) {
           std::array<std::uint32_t, kCentre> loop;
           std::size_t count = 0;
           for (int edge = 0; edge < kCentre; ++edge) {
-            if ((pattern.centre_edges >> edge & 1) != 0) loop[count++] = vertex[edge];
+            if ((entry.centre_edges >> edge & 1) != 0) loop[count++] = vertex[edge];
           }
           draft_.place_centre(vertex[kCentre], std::span(loop).first(count));
         }
-        for (const auto& [a, b, c] : pattern.triangles) {
+        entry.for_each_triangle([&](std::uint8_t a, std::uint8_t b, std::uint8_t c) {
           draft_.triangles.push_back({vertex[a], vertex[b], vertex[c]});
-        }
+        });
       });
     }
   }
@@ -218,7 +219,7 @@ class Sweep {
   }
 
   Draft& draft_;
-  const CaseRules& rules_;
+  const Table& table_;
   PlaneShape shape_;
   Planes planes_;
   std::array<std::vector<std::uint8_t>, 3> crossing_;
