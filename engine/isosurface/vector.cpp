@@ -107,4 +107,12 @@ void extract_vector(const Field& field, float isovalue, const ExtractOptions& op
   draft.hand_over(into);
 }
 
+void extract_vector(const Field& field, float isovalue, const ExtractOptions& options, const CaseRules& rules,
+                    Surface& into) {
+  detail::Draft draft(field, isovalue, options, "vector");
+  const detail::PatternTable table(rules);
+  detail::Sweep<Arrays, detail::PatternTable>(draft, table).run();
+  draft.hand_over(into);
+}
+
 }  // namespace footwall::isosurface

@@ -5,6 +5,7 @@
 // differs in that the arrays hold one plane of the volume at a time, so that they stay in the cache, in that
 // each entry has its face and interior alternatives, and in that the boolean is 1 at or above the isovalue.
 #pragma once
+#include "engine/isosurface/case_tables.h"
 #include "engine/isosurface/extract.h"
 
 namespace footwall::isosurface {
@@ -12,5 +13,8 @@ namespace footwall::isosurface {
 // One thread; options.threads is not used. Throws as extract(), and kUnsupported for options.bricks: this
 // variant reads every sample.
 void extract_vector(const Field& field, float isovalue, const ExtractOptions& options, Surface& into);
+// With other rules, whose patterns are taken as they are.
+void extract_vector(const Field& field, float isovalue, const ExtractOptions& options, const CaseRules& rules,
+                    Surface& into);
 
 }  // namespace footwall::isosurface

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -12,27 +11,6 @@
 
 namespace footwall::isosurface::detail {
 namespace {
-
-void check(const Field& field, float isovalue) {
-  std::int64_t count = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (field.size[axis] < 1 || field.origin[axis] < 0 ||
-        field.origin[axis] + field.size[axis] > field.volume_size[axis]) {
-      throw Error(ErrorCode::kInvalid,
-                  fmt::format("samples {} to {} of axis {} are not in a volume of {}", field.origin[axis],
-                              field.origin[axis] + field.size[axis] - 1, axis, field.volume_size[axis]));
-    }
-    count *= field.size[axis];
-  }
-  if (field.values.size() != static_cast<std::size_t>(count)) {
-    throw Error(ErrorCode::kInvalid,
-                fmt::format("{} x {} x {} samples are {}, not {}", field.size[0], field.size[1], field.size[2],
-                            count, field.values.size()));
-  }
-  if (!std::isfinite(isovalue)) {
-    throw Error(ErrorCode::kInvalid, fmt::format("{} is no isovalue", isovalue), "give a finite number");
-  }
-}
 
 template <class Value>
 void copy(const std::vector<Value>& from, PageVector<Value>& into) {
@@ -44,16 +22,16 @@ void copy(const std::vector<Value>& from, PageVector<Value>& into) {
 
 Draft::Draft(const Field& from, float value, const ExtractOptions& options, std::string_view variant)
     : field(from), isovalue(value), normals(options.normals), hands_over_keys_(options.keys) {
-  check(field, isovalue);
+  check(field, isovalue, options);
   if (options.bricks != nullptr) {
     throw Error(ErrorCode::kUnsupported, fmt::format("the variant {} reads every sample", variant),
                 "leave the pyramid out, or take the variant bricks");
   }
-  cells = cells_of(field);
-  if (options.cells) cells = survey::intersection(cells, *options.cells);
+  cells = options.cells.value_or(cells_of(field));
+  marched_ = cells;
   for (int axis = 0; axis < 3; ++axis) {
     cells.lo[axis] -= field.origin[axis];
-    cells.hi[axis] = std::max(cells.hi[axis] - field.origin[axis], cells.lo[axis]);
+    cells.hi[axis] -= field.origin[axis];
   }
   samples = cells;
   for (int axis = 0; axis < 3; ++axis) samples.hi[axis] += 1;
@@ -93,16 +71,8 @@ std::uint32_t Draft::reserve_centre(std::int64_t i, std::int64_t j, std::int64_t
 }
 
 void Draft::place_centre(std::uint32_t number, std::span<const std::uint32_t> loop) {
-  const auto mean = [&](const std::vector<Point>& all) {
-    Point sum;
-    for (const std::uint32_t n : loop) {
-      sum = {sum.i + all[n].i, sum.j + all[n].j, sum.k + all[n].k};
-    }
-    const auto count = static_cast<float>(loop.size());
-    return Point{sum.i / count, sum.j / count, sum.k / count};
-  };
-  positions[number] = mean(positions);
-  if (normals) normal_vectors[number] = unit(mean(normal_vectors), normal_vectors[loop.front()]);
+  positions[number] = centre_position(loop, positions.data());
+  if (normals) normal_vectors[number] = centre_normal(loop, normal_vectors.data());
 }
 
 void Draft::sort_vertices() {
@@ -146,12 +116,9 @@ void Draft::hand_over(Surface& into) {
   } else {
     into.keys.resize_uninitialised(0);
   }
-  into.cells = cells;
-  for (int axis = 0; axis < 3; ++axis) {
-    into.cells.lo[axis] += field.origin[axis];
-    into.cells.hi[axis] += field.origin[axis];
-  }
-  row_first.push_back(triangles.size());
+  into.cells = marched_;
+  // One entry a row, also where there was nothing to march.
+  row_first.resize(static_cast<std::size_t>(cells.size(0) * cells.size(1)) + 1, triangles.size());
   into.row_first = std::move(row_first);
 }
 

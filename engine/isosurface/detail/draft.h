@@ -53,6 +53,7 @@ class Draft {
   std::uint32_t next_number() const;
   VertexKey key(std::int64_t i, std::int64_t j, std::int64_t k, int axis) const;
   const bool hands_over_keys_;
+  survey::Box marched_;  // cells as the volume counts them
 };
 
 }  // namespace footwall::isosurface::detail

@@ -2,9 +2,11 @@
 // for bit: no contraction, no approximate reciprocals, sums from left to right.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "engine/isosurface/field.h"
 #include "engine/isosurface/surface.h"
@@ -69,6 +71,28 @@ inline Point normal(const Point& lower, const Point& upper, float t, int axis, b
   const Point v{g.i * scale, g.j * scale, g.k * scale};
   const float inverse = -1 / std::sqrt(v.i * v.i + v.j * v.j + v.k * v.k);
   return {v.i * inverse, v.j * inverse, v.k * inverse};
+}
+
+// A centre vertex from the vertices of its loop, in the order of their edges; sums in double.
+inline std::array<double, 3> sum_of(std::span<const std::uint32_t> loop, const Point* points) {
+  std::array<double, 3> sum{};
+  for (const std::uint32_t n : loop) {
+    sum[0] += points[n].i;
+    sum[1] += points[n].j;
+    sum[2] += points[n].k;
+  }
+  return sum;
+}
+inline Point divided(const std::array<double, 3>& v, double by) {
+  return {static_cast<float>(v[0] / by), static_cast<float>(v[1] / by), static_cast<float>(v[2] / by)};
+}
+inline Point centre_position(std::span<const std::uint32_t> loop, const Point* positions) {
+  return divided(sum_of(loop, positions), static_cast<double>(loop.size()));
+}
+inline Point centre_normal(std::span<const std::uint32_t> loop, const Point* normals) {
+  const auto sum = sum_of(loop, normals);
+  const double length = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+  return length == 0 ? normals[loop.front()] : divided(sum, length);  // they cancel out: any will do
 }
 
 }  // namespace footwall::isosurface::detail
