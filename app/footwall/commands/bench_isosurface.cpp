@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "app/footwall/commands/bench_isosurface_ranks.h"
 #include "app/footwall/commands/options.h"
 #include "engine/isosurface/registry.h"
 #include "engine/synthetic/fields.h"
@@ -19,6 +20,7 @@ struct Options {
   tasks::BenchIsosurfaceOptions how;
   std::string dims, sweep;
   bool no_check = false;
+  RanksOptions ranks;
 };
 
 template <class Kind>
@@ -136,6 +138,7 @@ console::Output run(Options& options, const console::Console& console) {
   if (!options.how.raw.empty() && options.dims.empty()) {
     throw Error(ErrorCode::kUsage, "the sizes of the raw volume are not known", "give --dims X,Y,Z, x the fastest");
   }
+  if (options.ranks.given()) return options.ranks.run(options.how, console.job());
   if (!options.sweep.empty()) return of_sweep(options, console);
   const tasks::BenchIsosurfaceResult done = tasks::bench_isosurface(options.how, console.job());
   return {json_of(done), text_of(done)};
@@ -166,6 +169,7 @@ void add_bench_isosurface(console::Program& program, CLI::App* group) {
   command->add_flag("--no-check", options->no_check, "Do not compare with another variant, and say so");
   command->add_option("--sweep", options->sweep,
                       "FIRST:LAST:COUNT isovalues: how much faster vector is than cubes at each");
+  options->ranks.add_to(*command);
 }
 
 }  // namespace footwall::commands
