@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "engine/isosurface/surface.h"
-#include "storage/survey/vector3.h"
+#include "storage/survey/vector.h"
 
 namespace footwall::isosurface {
 

@@ -9,7 +9,7 @@
 #include "storage/base/job_context.h"
 #include "storage/formats/triangle_source.h"
 #include "storage/survey/geometry.h"
-#include "storage/survey/vector3.h"
+#include "storage/survey/vector.h"
 
 namespace footwall::tasks {
 
