@@ -12,7 +12,8 @@ namespace {
 TEST(Ply, HoldsWhatTheHeaderSays) {
   const ScratchFolder folder;
   for (const bool normals : {true, false}) {
-    write(folder / "f.ply", sample_triangles(kManyTriangles, normals), {"a\nb", "m", "ms", "up", "EPSG:23031"});
+    write(folder / "f.ply", sample_triangles(kManyTriangles, normals),
+          {"a\nb", "m", "ms", "up", "EPSG:23031"});
     const std::string bytes = content_of(folder / "f.ply");
     const std::size_t data = bytes.find("end_header\n") + 11;
     const std::string header = bytes.substr(0, data);
@@ -20,7 +21,8 @@ TEST(Ply, HoldsWhatTheHeaderSays) {
     EXPECT_NE(header.find("comment name a b\n"), std::string::npos);
     EXPECT_NE(header.find("comment crs EPSG:23031\n"), std::string::npos);
     EXPECT_NE(header.find("element vertex 131079\nproperty double x\n"), std::string::npos);
-    EXPECT_NE(header.find("element face 131077\nproperty list uchar uint vertex_indices\n"), std::string::npos);
+    EXPECT_NE(header.find("element face 131077\nproperty list uchar uint vertex_indices\n"),
+              std::string::npos);
     EXPECT_EQ(header.find("property float nx") != std::string::npos, normals);
     const std::size_t vertex = normals ? 36 : 24;
     ASSERT_EQ(bytes.size(), data + 131079 * vertex + 131077 * 13);

@@ -21,7 +21,8 @@ std::string array_of(const std::string& bytes, const std::string& name) {
 TEST(VtpSurface, ArraysStandWhereTheHeaderSays) {
   const ScratchFolder folder;
   for (const bool normals : {true, false}) {
-    write_surface(folder / "f.vtp", sample_triangles(kManyTriangles, normals), {"V<=3>", "m", "ms", "up", ""});
+    write_surface(folder / "f.vtp", sample_triangles(kManyTriangles, normals),
+                  {"V<=3>", "m", "ms", "up", ""});
     const std::string bytes = content_of(folder / "f.vtp");
     EXPECT_NE(bytes.find("NumberOfPoints=\"131079\""), std::string::npos);
     EXPECT_NE(bytes.find("NumberOfPolys=\"131077\""), std::string::npos);

@@ -75,9 +75,12 @@ TEST(Canonical, EveryPartOfASurfaceCounts) {
   EXPECT_NE(changed([](Surface& s) { std::swap(s.triangles[4][0], s.triangles[4][1]); }).find("triangle"),
             std::string::npos);
   EXPECT_NE(changed([](Surface& s) { s.triangles.resize_uninitialised(s.triangles.size() - 1); }), "");
-  EXPECT_NE(changed([](Surface& s) { s.normals.resize_uninitialised(0); }).find("normals"), std::string::npos);
+  EXPECT_NE(changed([](Surface& s) { s.normals.resize_uninitialised(0); }).find("normals"),
+            std::string::npos);
   // A key that belongs elsewhere is told by its place.
-  EXPECT_NE(changed([&](Surface& s) { s.keys[0] = key_of({4, 5, 6}, 3, volume.size); }).find("of ("),
+  EXPECT_NE(changed([&](Surface& s) {
+              s.keys[0] = key_of({4, 5, 6}, 3, volume.size);
+            }).find("of ("),
             std::string::npos);
 }
 

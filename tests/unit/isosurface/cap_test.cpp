@@ -52,7 +52,8 @@ TEST(Cap, ClosesEverySurface) {
       EXPECT_EQ(found.euler % 2, 0);
       ASSERT_TRUE(found.volume.has_value());
       EXPECT_GE(*found.volume, 0);
-      EXPECT_LE(*found.volume, static_cast<double>((size[0] - 1) * (size[1] - 1) * (size[2] - 1)) * (1 + 1e-9));
+      EXPECT_LE(*found.volume,
+                static_cast<double>((size[0] - 1) * (size[1] - 1) * (size[2] - 1)) * (1 + 1e-9));
     }
   }
 }
@@ -60,13 +61,15 @@ TEST(Cap, ClosesEverySurface) {
 TEST(Cap, EnclosesWhatTheCellsEnclose) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     const SampleVolume volume = random_volume({5, 6, 7}, seed);
-    EXPECT_NEAR(*properties_of(capped(volume.field(), 0.1F), Measure()).volume, volume_by_cells(volume, 0.1F), 1e-5);
+    EXPECT_NEAR(*properties_of(capped(volume.field(), 0.1F), Measure()).volume, volume_by_cells(volume, 0.1F),
+                1e-5);
   }
 }
 
 TEST(Cap, OfASlopeIsTheHalfSpace) {
   // i + 0.5 >= 3.25 of 0..7: a box.
-  const SampleVolume slope = sampled({8, 5, 6}, [](auto i, auto, auto) { return static_cast<double>(i) + 0.5; });
+  const SampleVolume slope =
+      sampled({8, 5, 6}, [](auto i, auto, auto) { return static_cast<double>(i) + 0.5; });
   const Properties found = properties_of(capped(slope.field(), 3.25F), Measure());
   EXPECT_NEAR(*found.volume, (7 - 2.75) * 4 * 5, 1e-5);
   EXPECT_NEAR(found.area, 2 * (4.25 * 4 + 4.25 * 5 + 4 * 5), 1e-5);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/isosurface/edges.h"
 #include "engine/isosurface/cubes.h"
+#include "engine/isosurface/edges.h"
 #include "engine/isosurface/plane.h"
 #include "engine/isosurface/seed_tables.h"
 #include "sample_volumes.h"
@@ -65,7 +65,8 @@ TEST(Properties, OfARing) {
 
 TEST(Properties, AHollowCountsAgainstItsBody) {
   const SampleVolume shell = sampled({31, 31, 31}, [](auto i, auto j, auto k) {
-    const double r = std::sqrt(static_cast<double>((i - 15) * (i - 15) + (j - 15) * (j - 15) + (k - 15) * (k - 15)));
+    const double r =
+        std::sqrt(static_cast<double>((i - 15) * (i - 15) + (j - 15) * (j - 15) + (k - 15) * (k - 15)));
     return std::min(12 - r, r - 5);
   });
   const Properties found = properties_of(surface_of(shell, 0), Measure());
@@ -77,7 +78,8 @@ TEST(Properties, AHollowCountsAgainstItsBody) {
 }
 
 TEST(Properties, AnOpenSurfaceEnclosesNothing) {
-  const SampleVolume slope = sampled({8, 9, 10}, [](auto, auto, auto k) { return static_cast<double>(k) - 4.5; });
+  const SampleVolume slope =
+      sampled({8, 9, 10}, [](auto, auto, auto k) { return static_cast<double>(k) - 4.5; });
   const Properties found = properties_of(surface_of(slope, 0), Measure());
   EXPECT_FALSE(found.volume.has_value());
   EXPECT_EQ(found.closed_components, 0u);

@@ -53,7 +53,8 @@ void expect_outward(const formats::TriangleSource& source) {
   source.normals(0, normals);
   source.corners(0, corners);
   Vector3 centre;
-  for (const auto& [x, y, z] : positions) centre = centre + Vector3{x, y, z} * (1.0 / static_cast<double>(source.vertices));
+  for (const auto& [x, y, z] : positions)
+    centre = centre + Vector3{x, y, z} * (1.0 / static_cast<double>(source.vertices));
   const auto at = [&](std::uint32_t n) { return Vector3{positions[n][0], positions[n][1], positions[n][2]}; };
   for (const auto& [a, b, c] : corners) {
     const Vector3 winding = cross(at(b) - at(a), at(c) - at(a));
@@ -103,7 +104,8 @@ TEST(WriteSurface, TheSuffixNamesTheFormat) {
   const auto read_back = formats::gocad_tsurf::read(folder / "a.ts");
   ASSERT_EQ(read_back.objects.size(), 1u);
   EXPECT_EQ(read_back.objects[0].surface.triangles.size(), surface.triangles.size());
-  EXPECT_THROW(write_surface(folder / "a.obj", surface, "", geometry(false), SurfaceCoordinates::kWorld), Error);
+  EXPECT_THROW(write_surface(folder / "a.obj", surface, "", geometry(false), SurfaceCoordinates::kWorld),
+               Error);
   EXPECT_THROW(surface_coordinates_from("World"), Error);
   survey::Geometry flat = geometry(false);
   flat.map.per_crossline_x = 3;
