@@ -81,8 +81,8 @@ HWY_INLINE Float slope(const float* HWY_RESTRICT base, Int offset, [[maybe_unuse
         hn::GatherIndex(kFloats, base, hn::Add(offset, hn::IfThenZeroElse(is_last, step)));
     const auto below =
         hn::GatherIndex(kFloats, base, hn::Sub(offset, hn::IfThenZeroElse(is_first, step)));
-    const auto no_above = hn::Or(hn::RebindMask(kFloats, is_last), hn::Ne(above, above));
-    const auto no_below = hn::Or(hn::RebindMask(kFloats, is_first), hn::Ne(below, below));
+    const auto no_above = hn::Or(hn::RebindMask(kFloats, is_last), hn::IsNaN(above));
+    const auto no_below = hn::Or(hn::RebindMask(kFloats, is_first), hn::IsNaN(below));
     const auto rise = hn::Sub(hn::IfThenElse(no_above, value, above), hn::IfThenElse(no_below, value, below));
     return hn::IfThenElse(hn::Xor(no_above, no_below), hn::Add(rise, rise), rise);
   }
@@ -114,7 +114,7 @@ class Plane {
     const Int k = hn::Sub(offset, hn::Mul(j, row_step_));
     const auto on_i = hn::Eq(axis, hn::Zero(kInts));
     const auto on_j = hn::Eq(axis, hn::Set(kInts, 1));
-    const auto on_k = hn::Ge(axis, hn::Set(kInts, 2));
+    const auto on_k = hn::Gt(axis, hn::Set(kInts, 1));
     const Int one = hn::Set(kInts, 1);
     const Int step = hn::IfThenElse(on_i, plane_step_, hn::IfThenElse(on_j, row_step_, one));
     const Int upper = hn::Add(offset, step);
@@ -153,9 +153,9 @@ class Plane {
     };
     // Neighbours that the field does not have must not even be read.
     const auto at_border =
-        hn::Or(hn::Or(hn::Or(hn::Eq(lower_i.at, hn::Zero(kInts)), hn::Ge(upper_i.at, last_i_)),
-                      hn::Or(hn::Eq(lower_j.at, hn::Zero(kInts)), hn::Ge(upper_j.at, last_j_))),
-               hn::Or(hn::Eq(lower_k.at, hn::Zero(kInts)), hn::Ge(upper_k.at, last_k_)));
+        hn::Or(hn::Or(hn::Or(hn::Eq(lower_i.at, hn::Zero(kInts)), hn::Eq(upper_i.at, last_i_)),
+                      hn::Or(hn::Eq(lower_j.at, hn::Zero(kInts)), hn::Eq(upper_j.at, last_j_))),
+               hn::Or(hn::Eq(lower_k.at, hn::Zero(kInts)), hn::Eq(upper_k.at, last_k_)));
     Vector g{a, a, a};
     Int magnitude = hn::Zero(kInts);
     const Int infinity = hn::Set(kInts, static_cast<std::int32_t>(kInfinity));
@@ -171,7 +171,7 @@ class Plane {
     }
 
     const auto none = hn::RebindMask(
-        kFloats, hn::Or(hn::Eq(magnitude, hn::Zero(kInts)), hn::Ge(magnitude, infinity)));
+        kFloats, hn::Or(hn::Eq(magnitude, hn::Zero(kInts)), hn::Gt(magnitude, hn::Sub(infinity, one))));
     const Int exponent =
         hn::Max(hn::Sub(hn::Set(kInts, 253), hn::ShiftRight<23>(magnitude)), one);
     const Float scale = hn::BitCast(kFloats, hn::ShiftLeft<23>(exponent));
