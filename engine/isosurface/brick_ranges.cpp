@@ -74,8 +74,8 @@ void fold_bricks(const Field& volume, std::int64_t a, std::int64_t b, BrickRange
   const auto fold = HWY_DYNAMIC_DISPATCH(fold_row);
   for (std::int64_t i = first_of(a); i <= last_of(a, volume.size[0]); ++i) {
     for (std::int64_t j = first_of(b); j <= last_of(b, volume.size[1]); ++j) {
-      fold(volume.values.data() + (i * volume.size[1] + j) * volume.size[2], size, least.data(), greatest.data(),
-           nulls.data());
+      fold(volume.values.data() + (i * volume.size[1] + j) * volume.size[2], size, least.data(),
+           greatest.data(), nulls.data());
     }
   }
   for (std::int64_t c = 0; c < into.dims[2]; ++c) {

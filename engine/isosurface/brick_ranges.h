@@ -1,5 +1,5 @@
-// Which values occur in the bricks of a volume that is in memory; for volumes on disk storage/volume keeps the
-// same tables.
+// Which values occur in the bricks of a volume that is in memory; for volumes on disk storage/volume keeps
+// the same tables.
 #pragma once
 #include <cstdint>
 #include <vector>

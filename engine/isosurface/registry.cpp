@@ -29,8 +29,8 @@ std::span<const Variant> variants() {
 }
 
 const Variant& variant_of(std::string_view name) {
-  const auto* const found =
-      std::find_if(kVariants.begin(), kVariants.end(), [&](const Variant& each) { return each.name == name; });
+  const auto* const found = std::find_if(kVariants.begin(), kVariants.end(),
+                                         [&](const Variant& each) { return each.name == name; });
   if (found != kVariants.end()) return *found;
   std::string names;
   for (const Variant& each : kVariants) names += fmt::format("{}{}", names.empty() ? "" : ", ", each.name);

@@ -94,7 +94,7 @@ struct Marched {
     } else {
       int exponent = 0;
       std::frexp(most, &exponent);
-      for (float& each : g) each = std::ldexp(each, -exponent);
+      for (float& each : g) each = std::ldexp(each, -std::min(exponent, 126));
       const float length = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
       for (int n = 0; n < 3; ++n) normal[n] = g[n] * (-1 / length);
     }
@@ -111,7 +111,8 @@ struct Marched {
       normal = {normal[0] + vertex.normal.i, normal[1] + vertex.normal.j, normal[2] + vertex.normal.k};
     }
     const auto over = [](const std::array<double, 3>& v, double by) {
-      return Point{static_cast<float>(v[0] / by), static_cast<float>(v[1] / by), static_cast<float>(v[2] / by)};
+      return Point{static_cast<float>(v[0] / by), static_cast<float>(v[1] / by),
+                   static_cast<float>(v[2] / by)};
     };
     const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     return {over(position, static_cast<double>(loop.size())),
@@ -188,8 +189,8 @@ Surface surface_by_definition(const Field& field, float isovalue, const ExtractO
     surface.positions[n] = vertex.position;
     surface.normals[n] = vertex.normal;
     const std::int64_t sample = (place.i * field.volume_size[1] + place.j) * field.volume_size[2] + place.k;
-    surface.keys[n] = 4 * static_cast<VertexKey>(sample) +
-                      static_cast<VertexKey>(place.kind == 3 ? 3 : 2 - place.kind);
+    surface.keys[n] =
+        4 * static_cast<VertexKey>(sample) + static_cast<VertexKey>(place.kind == 3 ? 3 : 2 - place.kind);
   }
   surface.triangles.resize_uninitialised(marched.triangles.size());
   for (std::size_t t = 0; t < marched.triangles.size(); ++t) {
@@ -207,11 +208,13 @@ std::string difference(const Surface& made, const Surface& defined) {
   if (made.triangles.size() != defined.triangles.size()) {
     return fmt::format("{} triangles instead of {}", made.triangles.size(), defined.triangles.size());
   }
-  if (!made.normals.empty() && made.normals.size() != defined.normals.size()) return "some normals are missing";
+  if (!made.normals.empty() && made.normals.size() != defined.normals.size())
+    return "some normals are missing";
   if (!made.keys.empty() && made.keys.size() != defined.keys.size()) return "some keys are missing";
   for (std::size_t n = 0; n < made.positions.size(); ++n) {
     if (!same(made.positions[n], defined.positions[n])) {
-      return fmt::format("vertex {} at {} instead of {}", n, text(made.positions[n]), text(defined.positions[n]));
+      return fmt::format("vertex {} at {} instead of {}", n, text(made.positions[n]),
+                         text(defined.positions[n]));
     }
     if (!made.normals.empty() && !same(made.normals[n], defined.normals[n])) {
       return fmt::format("normal {} is {} instead of {}, at {}", n, text(made.normals[n]),
@@ -225,7 +228,8 @@ std::string difference(const Surface& made, const Surface& defined) {
     if (made.triangles[t] != defined.triangles[t]) {
       const auto& a = made.triangles[t];
       const auto& b = defined.triangles[t];
-      return fmt::format("triangle {} is {} {} {} instead of {} {} {}", t, a[0], a[1], a[2], b[0], b[1], b[2]);
+      return fmt::format("triangle {} is {} {} {} instead of {} {} {}", t, a[0], a[1], a[2], b[0], b[1],
+                         b[2]);
     }
   }
   if (made.row_first != defined.row_first) return "other rows";
@@ -238,7 +242,8 @@ std::string unsoundness(const Surface& surface) {
     std::array<std::array<double, 3>, 3> corner{};
     for (std::size_t n = 0; n < 3; ++n) {
       const std::uint32_t vertex = surface.triangles[t][n];
-      if (vertex >= used.size()) return fmt::format("triangle {} has vertex {} of {}", t, vertex, used.size());
+      if (vertex >= used.size())
+        return fmt::format("triangle {} has vertex {} of {}", t, vertex, used.size());
       used[vertex] = true;
       const Point& p = surface.positions[vertex];
       corner[n] = {p.i, p.j, p.k};
@@ -249,7 +254,8 @@ std::string unsoundness(const Surface& surface) {
       u[axis] = corner[1][axis] - corner[0][axis];
       v[axis] = corner[2][axis] - corner[0][axis];
     }
-    const double area = std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+    const double area =
+        std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
     if (!(area > 0)) return fmt::format("triangle {} has no area", t);
   }
   for (std::size_t n = 0; n < used.size(); ++n) {

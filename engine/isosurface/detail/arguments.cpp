@@ -21,8 +21,8 @@ void check_field(const Field& field) {
     const std::int64_t size = field.size[axis];
     const std::int64_t origin = field.origin[axis];
     if (size < 1 || origin < 0 || origin > field.volume_size[axis] - size) {
-      refuse(fmt::format("samples {} to {} do not lie in a volume of {} on axis {}", origin, origin + size - 1,
-                         field.volume_size[axis], axis));
+      refuse(fmt::format("samples {} to {} do not lie in a volume of {} on axis {}", origin,
+                         origin + size - 1, field.volume_size[axis], axis));
     }
     samples *= static_cast<std::uint64_t>(size);
   }
@@ -45,7 +45,8 @@ void check_bricks(const Field& field, const Bricks& bricks) {
   std::int64_t count = 1;
   for (int axis = 0; axis < 3; ++axis) {
     if (bricks.dims[axis] != std::max<std::int64_t>(1, (field.volume_size[axis] + 6) / 8)) {
-      refuse(fmt::format("{} bricks on axis {} for {} samples", bricks.dims[axis], axis, field.volume_size[axis]));
+      refuse(fmt::format("{} bricks on axis {} for {} samples", bricks.dims[axis], axis,
+                         field.volume_size[axis]));
     }
     count *= bricks.dims[axis];
   }

@@ -7,15 +7,6 @@
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <vtkCellArray.h>
-#include <vtkFloatArray.h>
-#include <vtkFlyingEdges3D.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkSMPTools.h>
-#include <vtkVersion.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -30,6 +21,7 @@
 #include "engine/isosurface/brick_ranges.h"
 #include "engine/isosurface/case_tables.h"
 #include "engine/isosurface/extract.h"
+#include "flying_edges.h"
 #include "storage/base/error.h"
 
 namespace {
@@ -72,47 +64,16 @@ struct Times {
 };
 
 std::vector<float> read_raw(const Arguments& arguments) {
-  std::vector<float> values(static_cast<std::size_t>(arguments.dims[0] * arguments.dims[1] * arguments.dims[2]));
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(arguments.raw.c_str(), "rb"), &std::fclose);
-  if (file == nullptr || std::fread(values.data(), sizeof(float), values.size(), file.get()) != values.size()) {
+  std::vector<float> values(
+      static_cast<std::size_t>(arguments.dims[0] * arguments.dims[1] * arguments.dims[2]));
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(arguments.raw.c_str(), "rb"),
+                                                             &std::fclose);
+  if (file == nullptr ||
+      std::fread(values.data(), sizeof(float), values.size(), file.get()) != values.size()) {
     throw Error(ErrorCode::kIo, fmt::format("cannot read {} values of {}", values.size(), arguments.raw));
   }
   return values;
 }
-
-class Vtk {
- public:
-  Vtk(std::vector<float>& values, const Arguments& arguments) : arguments_(arguments) {
-    // Its first axis is the fastest one.
-    image_->SetDimensions(static_cast<int>(arguments.dims[2]), static_cast<int>(arguments.dims[1]),
-                          static_cast<int>(arguments.dims[0]));
-    const vtkNew<vtkFloatArray> scalars;
-    scalars->SetArray(values.data(), static_cast<vtkIdType>(values.size()), 1);
-    image_->GetPointData()->SetScalars(scalars);
-    start();
-  }
-  void start() {
-    filter_ = vtkSmartPointer<vtkFlyingEdges3D>::New();
-    filter_->SetInputData(image_);
-    filter_->SetValue(0, arguments_.value);
-    filter_->SetComputeNormals(!arguments_.no_normals);
-    filter_->ComputeGradientsOff();
-    filter_->ComputeScalarsOff();
-  }
-  void release() { filter_ = nullptr; }
-  void run() {
-    if (filter_ == nullptr) start();
-    filter_->Modified();
-    filter_->Update();
-  }
-  std::int64_t vertices() const { return filter_->GetOutput()->GetNumberOfPoints(); }
-  std::int64_t triangles() const { return filter_->GetOutput()->GetNumberOfPolys(); }
-
- private:
-  const Arguments& arguments_;
-  vtkNew<vtkImageData> image_;
-  vtkSmartPointer<vtkFlyingEdges3D> filter_;
-};
 
 class Footwall {
  public:
@@ -174,7 +135,7 @@ double peak_mib(const std::function<void()>& work) {
 
 // The answer before the time: VTK's vertices are those on edges, and only cells that it decides in another
 // way than the trilinear field can have other numbers of triangles.
-void check(const Vtk& vtk, Footwall& ours, float isovalue) {
+void check(const FlyingEdges& vtk, Footwall& ours, float isovalue) {
   ExtractOptions options;
   options.keys = true;
   Surface with_keys;
@@ -216,8 +177,8 @@ std::uint64_t streamed(const std::vector<float>& values) {
 
 void compare(const Arguments& arguments) {
   std::vector<float> values = read_raw(arguments);
-  vtkSMPTools::Initialize(arguments.threads);
-  Vtk vtk(values, arguments);
+  FlyingEdges vtk(values, {arguments.dims[0], arguments.dims[1], arguments.dims[2]}, arguments.value,
+                  !arguments.no_normals, arguments.threads);
   Footwall ours(values, arguments, nullptr);
   // First of all, before there are threads, which a child would not have.
   const double vtk_mib = peak_mib([&] { vtk.run(); });
@@ -258,11 +219,12 @@ void compare(const Arguments& arguments) {
     skipping.release();
   }
   const char* const tunables = std::getenv("GLIBC_TUNABLES");
-  fmt::print("VTK {}, {} ({} threads), {}normals, {} repeats; malloc: {}; {:.1f} % of the bricks active ({})\n",
-             vtkVersion::GetVTKVersion(), vtkSMPTools::GetBackend(), arguments.threads,
-             arguments.no_normals ? "no " : "", arguments.repeat, tunables == nullptr ? "as it is" : tunables,
+  fmt::print("VTK {}; {} threads, {}normals, {} repeats; malloc: {}; {:.1f} % of the bricks active ({})\n",
+             FlyingEdges::version(), arguments.threads, arguments.no_normals ? "no " : "", arguments.repeat,
+             tunables == nullptr ? "as it is" : tunables,
              100.0 * static_cast<double>(active) / static_cast<double>(ranges.min.size()), sum % 10);
-  fmt::print("{:<34} {:>10} {:>10} {:>8} {:>14}\n", "medians in ms", "wall", "processor", "ratio", "ratio of proc.");
+  fmt::print("{:<34} {:>10} {:>10} {:>8} {:>14}\n", "medians in ms", "wall", "processor", "ratio",
+             "ratio of proc.");
   const auto line = [&](const char* name, const Times& times, const Times& vtk_times) {
     const double wall = Times::median(times.wall);
     const double processor = Times::median(times.processor);
@@ -296,7 +258,9 @@ int main(int argc, char** argv) {
   if (arguments.tuned && std::getenv("GLIBC_TUNABLES") == nullptr) {
     // Read by the C library when a program starts.
     setenv("GLIBC_TUNABLES",
-           "glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=4294967296:glibc.malloc.trim_threshold=8589934592", 1);
+           "glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=4294967296:glibc.malloc.trim_threshold="
+           "8589934592",
+           1);
     execv("/proc/self/exe", argv);
   }
   try {

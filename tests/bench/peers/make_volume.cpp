@@ -24,8 +24,8 @@ class Sphere {
   explicit Sphere(int n) : middle_((n - 1) / 2.0), radius_(0.4 * n) {}
   void row(int i, int j, Row& into) const {
     for (std::size_t k = 0; k < into.size(); ++k) {
-      into[k] =
-          static_cast<float>(radius_ - std::hypot(i - middle_, j - middle_, static_cast<double>(k) - middle_));
+      into[k] = static_cast<float>(radius_ -
+                                   std::hypot(i - middle_, j - middle_, static_cast<double>(k) - middle_));
     }
   }
 
@@ -42,7 +42,8 @@ class Gyroid {
     const double y = j * angle_;
     for (std::size_t k = 0; k < into.size(); ++k) {
       const double z = static_cast<double>(k) * angle_;
-      into[k] = static_cast<float>(std::sin(x) * std::cos(y) + std::sin(y) * std::cos(z) + std::sin(z) * std::cos(x));
+      into[k] = static_cast<float>(std::sin(x) * std::cos(y) + std::sin(y) * std::cos(z) +
+                                   std::sin(z) * std::cos(x));
     }
   }
 
@@ -82,7 +83,8 @@ class Envelope {
                                       start.real() * b.imag() + start.imag() * b.real());
       }
     }
-    for (std::size_t k = 0; k < into.size(); ++k) into[k] = std::abs(sum[k]) / std::sqrt(static_cast<float>(kWaves));
+    for (std::size_t k = 0; k < into.size(); ++k)
+      into[k] = std::abs(sum[k]) / std::sqrt(static_cast<float>(kWaves));
   }
 
  private:

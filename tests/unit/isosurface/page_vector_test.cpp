@@ -45,7 +45,8 @@ TEST(PageVector, MovesItsRoom) {
 }
 
 TEST(PageVector, StandsOnHugePageBordersWhenLarge) {
-  for (const std::size_t bytes : {std::size_t{1}, kHugePage - 1, kHugePage, kHugePage + 1, 5 * kHugePage + 17}) {
+  for (const std::size_t bytes :
+       {std::size_t{1}, kHugePage - 1, kHugePage, kHugePage + 1, 5 * kHugePage + 17}) {
     const PageRoom room = page_room(bytes);
     const auto place = reinterpret_cast<std::uintptr_t>(room.get());
     EXPECT_EQ(place % (bytes < kHugePage ? 64 : kHugePage), 0U);
