@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "engine/isosurface/parallel/active_blocks.h"
@@ -47,38 +48,43 @@ std::vector<std::vector<Share>> shares_of(std::int64_t cells, std::int64_t parts
   return shares;
 }
 
-}  // namespace
+// At most so many bricks are looked at for each of the 192 interleavings: every nth of the active ones.
+constexpr std::size_t kMostBricks = std::size_t{1} << 16;
 
-WorkForecast forecast(const Pillars& pillars, const Bricks& bricks, float isovalue, bool normals) {
+std::vector<survey::Index> active_bricks(const Bricks& bricks, float isovalue) {
+  std::vector<survey::Index> active;
+  for (std::int64_t a = 0; a < bricks.dims[0]; ++a) {
+    for (std::int64_t b = 0; b < bricks.dims[1]; ++b) {
+      for (std::int64_t c = 0; c < bricks.dims[2]; ++c) {
+        if (is_active(bricks, {a, b, c}, isovalue)) active.push_back({a, b, c});
+      }
+    }
+  }
+  return active;
+}
+
+WorkForecast forecast_of(const Pillars& pillars, const survey::Index& dims,
+                         std::span<const survey::Index> active, bool normals) {
   std::array<std::vector<std::vector<Share>>, 3> shares;
   const std::array<std::int64_t, 3> parts{std::int64_t{pillars.grid()[0]} * pillars.interleaving()[0],
                                           std::int64_t{pillars.grid()[1]} * pillars.interleaving()[1],
                                           pillars.layers()};
   for (int axis = 0; axis < 3; ++axis)
-    shares[axis] = shares_of(pillars.volume()[axis] - 1, parts[axis], bricks.dims[axis], normals);
+    shares[axis] = shares_of(pillars.volume()[axis] - 1, parts[axis], dims[axis], normals);
   std::vector<double> load(static_cast<std::size_t>(pillars.ranks()), 0);
   WorkForecast forecast;
-  const auto of_brick = [](const std::vector<std::vector<Share>>& of_axis, std::int64_t brick) {
-    return std::span(of_axis[static_cast<std::size_t>(brick)]);
-  };
   constexpr double kCells = kBrick * kBrick * kBrick;
-  for (std::int64_t a = 0; a < bricks.dims[0]; ++a) {
-    for (std::int64_t b = 0; b < bricks.dims[1]; ++b) {
-      for (std::int64_t c = 0; c < bricks.dims[2]; ++c) {
-        if (!is_active(bricks, {a, b, c}, isovalue)) continue;
-        for (const Share& i : of_brick(shares[0], a)) {
-          for (const Share& j : of_brick(shares[1], b)) {
-            for (const Share& k : of_brick(shares[2], c)) {
-              const double fraction = i.fraction * j.fraction * k.fraction;
-              const double needed = fraction * (kCells + kActiveCells * kActiveCost);
-              const double done =
-                  fraction * (kCells * i.samples * j.samples * k.samples +
-                              kActiveCells * kActiveCost * i.vertices * j.vertices * k.vertices);
-              load[static_cast<std::size_t>(pillars.rank_of({i.part, j.part, k.part}))] += done;
-              forecast.redundant += done - needed;
-              forecast.mean += done;
-            }
-          }
+  for (const survey::Index& brick : active) {
+    for (const Share& i : shares[0][static_cast<std::size_t>(brick[0])]) {
+      for (const Share& j : shares[1][static_cast<std::size_t>(brick[1])]) {
+        for (const Share& k : shares[2][static_cast<std::size_t>(brick[2])]) {
+          const double fraction = i.fraction * j.fraction * k.fraction;
+          const double needed = fraction * (kCells + kActiveCells * kActiveCost);
+          const double done = fraction * (kCells * i.samples * j.samples * k.samples +
+                                          kActiveCells * kActiveCost * i.vertices * j.vertices * k.vertices);
+          load[static_cast<std::size_t>(pillars.rank_of({i.part, j.part, k.part}))] += done;
+          forecast.redundant += done - needed;
+          forecast.mean += done;
         }
       }
     }
@@ -88,18 +94,28 @@ WorkForecast forecast(const Pillars& pillars, const Bricks& bricks, float isoval
   return forecast;
 }
 
+}  // namespace
+
+WorkForecast forecast(const Pillars& pillars, const Bricks& bricks, float isovalue, bool normals) {
+  return forecast_of(pillars, bricks.dims, active_bricks(bricks, isovalue), normals);
+}
+
 Interleaving choose_interleaving(const survey::Index& volume, int ranks, const Bricks& bricks, float isovalue,
                                  bool normals) {
   Interleaving best{1, 1, 1};
   const bool has_cells = volume[0] > 1 && volume[1] > 1 && volume[2] > 1;
   if (ranks == 1 || !has_cells) return best;
   const auto pillars_in = [](const Interleaving& one) { return one[0] * one[1] * one[2]; };
+  std::vector<survey::Index> active = active_bricks(bricks, isovalue);
+  const std::size_t every = active.size() / kMostBricks + 1;
+  for (std::size_t n = 0; n * every < active.size(); ++n) active[n] = active[n * every];
+  active.resize((active.size() + every - 1) / every);
   double least = -1;
   for (const int layers : {1, 2, 4}) {
     for (int a = 1; a <= kMostInterleaving; ++a) {
       for (int b = 1; b <= kMostInterleaving; ++b) {
         const Interleaving one{a, b, layers};
-        const double slowest = forecast(Pillars(volume, ranks, one), bricks, isovalue, normals).slowest;
+        const double slowest = forecast_of(Pillars(volume, ranks, one), bricks.dims, active, normals).slowest;
         const bool fewer = pillars_in(one) < pillars_in(best);
         if (least < 0 || slowest * kAboutEqual < least || (fewer && slowest <= least * kAboutEqual)) {
           best = one;

@@ -9,6 +9,7 @@ DATA = test_data()
 # File, how it is imported, isovalue.
 VOLUMES = (("_derived/nucleon.nrrd", "nrrd", 120), ("_derived/hydrogen_orbital.nrrd", "nrrd", 0.1),
            ("_derived/headsq_quarter.nrrd", "nrrd", 800), ("_derived/HeadMRVolume.nrrd", "nrrd", 60),
+           ("_derived/avg152T1.nrrd", "nrrd", 120),
            ("equinor+segyio/test-data/f3.sgy", "segy", 3000))
 
 
