@@ -15,8 +15,8 @@ struct Ball {
 
 // Small balls around the middle, and a few far out.
 std::vector<Ball> balls() {
-  constexpr int kBalls = 60;
-  constexpr int kOutliers = 6;
+  constexpr int kBalls = 30;
+  constexpr int kOutliers = 4;
   SplitMix64 random(2026);
   const auto between = [&](double lo, double hi) {
     return static_cast<float>(lo + (hi - lo) * random.unit());
