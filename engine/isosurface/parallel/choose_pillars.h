@@ -17,7 +17,7 @@ struct WorkForecast {
 WorkForecast forecast(const Pillars& pillars, const Bricks& bricks, float isovalue, bool normals);
 
 // The interleaving of 1 .. 8 x 1 .. 8 x (1, 2 or 4 layers) whose slowest rank is forecast to have the least
-// work; of about equal ones (within 2 %) the one with the fewest pillars. One rank needs none: 1x1x1.
+// work; of about equal ones (within 5 %) the one with the fewest pillars. One rank needs none: 1x1x1.
 Interleaving choose_interleaving(const survey::Index& volume, int ranks, const Bricks& bricks, float isovalue,
                                  bool normals);
 
