@@ -287,7 +287,12 @@ std::vector<SweepRow> sweep_isovalues(const BenchIsosurfaceOptions& options, con
   }
   BenchIsosurfaceOptions with_value = options;
   with_value.value = sweep.first;
+  with_value.variant = "vector";
   check_options(with_value);
+  if (options.tables != "trilinear") {
+    throw Error(ErrorCode::kUsage, "a sweep compares cubes and vector with the trilinear tables",
+                "leave --tables out");
+  }
   const BenchVolume volume = load_bench_volume(with_value, job);
   const Field field = field_of(volume);
   ExtractOptions how;
