@@ -166,6 +166,10 @@ std::string fault_of(unsigned signs, unsigned alternative, const Entry& entry, b
   if (used - edges + static_cast<int>(triangles.size()) != entry.loops - 2 * entry.tunnels)
     return "the wrong Euler number";
   if (parts_of(triangles) != entry.loops - entry.tunnels) return "the wrong number of parts";
+  const bool above = (alternative >> 6 & 1U) != 0;
+  const Places places = places_of(signs, entry.tunnels != 0 ? std::optional(above) : std::nullopt);
+  if (!chords && !is_embedded(triangles, with_centre(places, entry.filling.centre_edges)))
+    return "patches that cut each other";
   return "";
 }
 
