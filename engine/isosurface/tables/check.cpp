@@ -153,7 +153,7 @@ std::string fault_of(unsigned signs, unsigned alternative, const Entry& entry, b
   if (vertices != wanted) return "vertices that are not the cut edges'";
   if (beside_centre != entry.filling.centre_edges) return "a centre beside other vertices than it says";
   for (int face = 0; face < 6; ++face) {
-    const std::string fault = face_fault(signs, (alternative >> face & 1U) != 0, face, border);
+    std::string fault = face_fault(signs, (alternative >> face & 1U) != 0, face, border);
     if (!fault.empty()) return fault;
   }
   int used = 0;
