@@ -214,13 +214,15 @@ class Sweep {
   // Connects the intersections of the cells between planes i and i + 1.
   void march(std::int64_t i) {
     const Cells& cells = cells_of_plane(i);
+    std::array<const std::uint32_t*, kCentre> numbers;  // on the edges of the cell at place 0
+    for (int edge = 0; edge < kCentre; ++edge) numbers[edge] = numbers_on(edge, i);
     for (std::int64_t j = draft_.cells.lo[1]; j < draft_.cells.hi[1]; ++j) {
       draft_.begin_row();
       if (cells.row_passed[static_cast<std::size_t>(j - shape_.first_j)] == 0) continue;
       for_each_active(cells, j, [&](std::int64_t, std::size_t p) {
         const auto entry = table_.entry(cells.signs[p], cells.alternatives[p]);
         std::array<std::uint32_t, kCentre + 1> vertex;
-        for (int edge = 0; edge < kCentre; ++edge) vertex[edge] = number_on(edge, i, p);
+        for (int edge = 0; edge < kCentre; ++edge) vertex[edge] = numbers[edge][p];
         vertex[kCentre] = cells.centres[p];
         if (entry.has_centre) {
           std::array<std::uint32_t, kCentre> loop;
@@ -237,16 +239,16 @@ class Sweep {
     }
   }
 
-  // Of an edge that is not crossed, whatever was there.
-  std::uint32_t number_on(int edge, std::int64_t i, std::size_t p) const {
+  // Of edges that are not crossed, whatever was there.
+  const std::uint32_t* numbers_on(int edge, std::int64_t i) const {
     const int axis = edge / 4, low = edge & 1, high = edge >> 1 & 1;
     switch (axis) {
       case 0:
-        return numbers_[i & 1][0][p + static_cast<std::size_t>(low * shape_.stride + high)];
+        return numbers_[i & 1][0].data() + low * shape_.stride + high;
       case 1:
-        return numbers_[(i + low) & 1][1][p + static_cast<std::size_t>(high)];
+        return numbers_[(i + low) & 1][1].data() + high;
       default:
-        return numbers_[(i + low) & 1][2][p + static_cast<std::size_t>(high * shape_.stride)];
+        return numbers_[(i + low) & 1][2].data() + high * shape_.stride;
     }
   }
 
