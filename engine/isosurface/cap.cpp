@@ -111,11 +111,17 @@ class Cap {
       }
       return;
     }
+    if (std::none_of(inside.begin(), inside.end(), [](bool each) { return each; })) return;
+    // From a corner on: a fan from an intersection could have an edge that the surface has, too, where it
+    // joins two intersections of an ambiguous square.
+    int start = 0;
+    while (!inside[start]) ++start;
     std::array<std::uint32_t, kMostCorners> polygon;
     int count = 0;
-    for (int n = 0; n < 4; ++n) {
+    for (int step = 0; step < 4; ++step) {
+      const int n = (start + step) % 4, next = (n + 1) % 4;
       if (inside[n]) polygon[count++] = corner(around[n]);
-      if (inside[n] != inside[(n + 1) % 4]) polygon[count++] = crossing(around[n], around[(n + 1) % 4]);
+      if (inside[n] != inside[next]) polygon[count++] = crossing(around[n], around[next]);
     }
     add_polygon(polygon, count, right_handed);
   }

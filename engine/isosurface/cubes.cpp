@@ -17,6 +17,9 @@ class Cubes {
  public:
   Cubes(detail::Draft& draft, const CaseRules& rules)
       : draft_(draft), rules_(rules), columns_(draft.samples.size(2)) {
+    for (int corner = 0; corner < 8; ++corner) {
+      corner_[corner] = (corner & 1) * draft.step(0) + (corner >> 1 & 1) * draft.step(1) + (corner >> 2);
+    }
     const auto room = static_cast<std::size_t>(draft.samples.size(1) * columns_);
     for (auto& plane : found_) plane.assign(room, {kNone, kNone, kNone});
   }
@@ -42,13 +45,13 @@ class Cubes {
   void cube(std::int64_t i, std::int64_t j, std::int64_t k) {
     std::array<float, 8> values;
     unsigned signs = 0;
+    const float* const first = draft_.at(i, j, k);
     for (int corner = 0; corner < 8; ++corner) {
-      const float value = *draft_.at(i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2));
-      if (std::isnan(value)) return;
-      values[corner] = value;
-      signs |= (value >= draft_.isovalue ? 1U : 0U) << corner;
+      values[corner] = first[corner_[corner]];
+      signs |= (values[corner] >= draft_.isovalue ? 1U : 0U) << corner;
     }
-    if (signs == 0 || signs == 255) return;
+    if (signs == 0 || signs == 255) return;  // of nulls alone, too
+    if (std::any_of(values.begin(), values.end(), [](float value) { return std::isnan(value); })) return;
     const Alternative alternative =
         rules_.undecided(signs) ? rules_.decide(signs, values, draft_.isovalue) : Alternative{0};
     const Pattern& pattern = rules_.pattern(signs, alternative);
@@ -95,6 +98,7 @@ class Cubes {
   detail::Draft& draft_;
   const CaseRules& rules_;
   const std::int64_t columns_;
+  std::array<std::int64_t, 8> corner_{};     // where a cell's samples stand from its first one
   std::array<std::vector<Found>, 2> found_;  // [i & 1]
 };
 

@@ -108,6 +108,7 @@ SurfaceForm form_of(std::span<const KeyTriangle> triangles, const survey::Index&
     }
   }
   SurfaceForm form;
+  std::int64_t sheets = 0;
   Sets parts(numbers.size());
   Sets rims(numbers.size());
   std::vector<bool> on_rim(numbers.size(), false);
@@ -117,6 +118,7 @@ SurfaceForm form_of(std::span<const KeyTriangle> triangles, const survey::Index&
     parts.unite(a, b);
     const int all = uses.forward + uses.backward;
     form.crowded_edges += all > 2 ? 1 : 0;
+    sheets += (all + 1) / 2;
     form.twisted_edges += all == 2 && uses.forward != 1 ? 1 : 0;
     if (all != 1) continue;
     rims.unite(a, b);
@@ -127,7 +129,7 @@ SurfaceForm form_of(std::span<const KeyTriangle> triangles, const survey::Index&
   form.vertices = static_cast<std::int64_t>(numbers.size());
   form.triangles = static_cast<std::int64_t>(triangles.size());
   form.components = parts.count(std::vector<bool>(numbers.size(), true));
-  form.euler = form.vertices - static_cast<std::int64_t>(edges.size()) + form.triangles;
+  form.euler = form.vertices - sheets + form.triangles;
   form.genus = form.components - (form.euler + rims.count(on_rim)) / 2;
   return form;
 }

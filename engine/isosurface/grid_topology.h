@@ -21,9 +21,11 @@ std::vector<KeyTriangle> triangles_by_cell(const Field& field, float isovalue,
 struct SurfaceForm {
   std::int64_t vertices = 0;
   std::int64_t triangles = 0;
-  std::int64_t components = 0;     // of triangles that share a vertex
-  std::int64_t euler = 0;          // vertices - edges + triangles
-  std::int64_t genus = 0;          // handles of all components; meaningless where an edge is crowded
+  std::int64_t components = 0;  // of triangles that share a vertex
+  // Vertices - edges + triangles. A crowded edge is where sheets touch: with 4 triangles it counts as 2
+  // edges.
+  std::int64_t euler = 0;
+  std::int64_t genus = 0;          // handles of all components
   std::int64_t border_edges = 0;   // with one triangle, on the border of the volume
   std::int64_t open_edges = 0;     // with one triangle, elsewhere: a crack, or beside a null
   std::int64_t crowded_edges = 0;  // with more than two triangles

@@ -68,14 +68,14 @@ PageRoom larger_room(PageRoom room, std::size_t used, std::size_t bytes) {
     if (used > 0) std::memcpy(larger.get(), room.get(), used);
     return larger;
   }
-  // Both stand on the border of a huge page, so that whole tables of pages are moved.
-  const std::size_t moved = rounded_up(used, kHugePage);
-  if (moved > 0 &&
-      mremap(room.get(), moved, moved, MREMAP_MAYMOVE | MREMAP_FIXED, larger.get()) == MAP_FAILED) {
+  // Both stand on the border of a huge page, so that whole tables of pages are moved; in the place of what
+  // was mapped there, and with it what comes behind, so that it stays one mapping and can be moved again.
+  const std::size_t larger_bytes = larger.get_deleter().bytes;
+  if (mremap(room.get(), old_bytes, larger_bytes, MREMAP_MAYMOVE | MREMAP_FIXED, larger.get()) ==
+      MAP_FAILED) {
     refuse(bytes);
   }
-  std::byte* const rest = room.release() + moved;
-  if (moved < old_bytes) munmap(rest, old_bytes - moved);
+  static_cast<void>(room.release());
   return larger;
 }
 

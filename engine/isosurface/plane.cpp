@@ -26,47 +26,58 @@ class TwoPlanes {
   // l crosslines and m samples further.
   void look_at(std::int64_t i) {
     Plane& plane = planes_[i & 1];
-    plane.has_nulls = false;
     if (draft_.normals) plane.has_gradient.assign(plane.has_gradient.size(), 0);
+    const float isovalue = draft_.isovalue;
+    const std::int64_t columns = shape_.columns;
     for (std::int64_t j = draft_.samples.lo[1]; j < draft_.samples.hi[1]; ++j) {
-      const float* const row = draft_.at(i, j, 0);
-      for (std::int64_t k = draft_.samples.lo[2]; k < draft_.samples.hi[2]; ++k) {
-        plane.inside[shape_.at(j, k)] = row[k] >= draft_.isovalue ? 1 : std::isnan(row[k]) ? kNull : 0;
+      const float* const row = draft_.at(i, j, shape_.first_k);
+      std::uint8_t* const inside = plane.inside.data() + shape_.at(j, shape_.first_k);
+      for (std::int64_t n = 0; n < columns; ++n) {
+        inside[n] = static_cast<std::uint8_t>((row[n] >= isovalue ? 1 : 0) | (row[n] == row[n] ? 0 : kNull));
       }
     }
+    int nulls = 0;
     for (std::int64_t j = draft_.cells.lo[1]; j < draft_.cells.hi[1]; ++j) {
-      for (std::int64_t k = draft_.cells.lo[2]; k < draft_.cells.hi[2]; ++k) {
-        const std::size_t p = shape_.at(j, k), next = p + static_cast<std::size_t>(shape_.stride);
-        const int face = plane.inside[p] | plane.inside[next] << 1 | plane.inside[p + 1] << 2 |
-                         plane.inside[next + 1] << 3;
-        const bool has_null = face > 15;
-        plane.faces[p] = static_cast<std::uint8_t>(has_null ? kNull : face);
-        plane.has_nulls = plane.has_nulls || has_null;
+      const std::size_t p = shape_.at(j, shape_.first_k);
+      const std::uint8_t *const here = plane.inside.data() + p, *const next = here + shape_.stride;
+      std::uint8_t* const faces = plane.faces.data() + p;
+      for (std::int64_t n = 0; n + 1 < columns; ++n) {
+        const int face = (here[n] & 1) | (next[n] & 1) << 1 | (here[n + 1] & 1) << 2 | (next[n + 1] & 1) << 3;
+        const int null = (here[n] | next[n] | here[n + 1] | next[n + 1]) & kNull;
+        faces[n] = static_cast<std::uint8_t>(face | null);
+        nulls |= null;
       }
     }
+    plane.has_nulls = nulls != 0;
   }
 
   bool classify(std::int64_t i, std::uint8_t* signs, std::uint8_t* nulls) const {
     const Plane &lower = planes_[i & 1], &upper = planes_[(i + 1) & 1];
+    const std::int64_t columns = shape_.columns;
     for (std::int64_t j = draft_.cells.lo[1]; j < draft_.cells.hi[1]; ++j) {
-      for (std::int64_t k = draft_.cells.lo[2]; k < draft_.cells.hi[2]; ++k) {
-        const std::size_t p = shape_.at(j, k);
-        nulls[p] = static_cast<std::uint8_t>((lower.faces[p] | upper.faces[p]) & kNull);
-        signs[p] = static_cast<std::uint8_t>(spread(lower.faces[p]) | spread(upper.faces[p]) << 1);
+      const std::size_t first = shape_.at(j, shape_.first_k);
+      const std::uint8_t *const low = lower.faces.data() + first, *const high = upper.faces.data() + first;
+      for (std::int64_t n = 0; n + 1 < columns; ++n) {
+        nulls[first + n] = static_cast<std::uint8_t>((low[n] | high[n]) & kNull);
+        signs[first + n] = static_cast<std::uint8_t>(spread(low[n]) | spread(high[n]) << 1);
       }
     }
     return lower.has_nulls || upper.has_nulls;
   }
 
   void intersect(std::int64_t i, const std::array<std::uint8_t*, 3>& crossing) const {
-    const std::uint8_t* const lower = planes_[i & 1].inside.data();
-    const std::uint8_t* const upper = planes_[(i + 1) & 1].inside.data();
+    const std::int64_t columns = shape_.columns;
     for (std::int64_t j = draft_.samples.lo[1]; j < draft_.samples.hi[1]; ++j) {
-      for (std::int64_t k = draft_.samples.lo[2]; k < draft_.samples.hi[2]; ++k) {
-        const std::size_t p = shape_.at(j, k);
-        crossing[0][p] = differ(lower[p], upper[p]);
-        crossing[1][p] = differ(lower[p], lower[p + static_cast<std::size_t>(shape_.stride)]);
-        crossing[2][p] = differ(lower[p], lower[p + 1]);
+      const std::size_t first = shape_.at(j, shape_.first_k);
+      const std::uint8_t* const here = planes_[i & 1].inside.data() + first;
+      const std::uint8_t* const above = planes_[(i + 1) & 1].inside.data() + first;
+      const std::uint8_t* const beside = here + shape_.stride;
+      std::uint8_t *const to_above = crossing[0] + first, *const to_beside = crossing[1] + first,
+                          *const to_next = crossing[2] + first;
+      for (std::int64_t n = 0; n < columns; ++n) {
+        to_above[n] = differ(here[n], above[n]);
+        to_beside[n] = differ(here[n], beside[n]);
+        to_next[n] = differ(here[n], here[n + 1]);
       }
     }
   }

@@ -216,7 +216,7 @@ BenchIsosurfaceResult bench_isosurface(const BenchIsosurfaceOptions& options, co
   const Extraction extraction(options.variant, options.tables);
   BenchIsosurfaceResult result;
   result.simd = voxelize::simd_in_use();
-  const BenchVolume volume = load_bench_volume(options, job);
+  const BenchVolume volume = load_bench_volume(options, job.part(0, 0.1));
   const Field field = field_of(volume);
   result.variant = options.variant;
   result.tables = extraction.tables();
@@ -287,8 +287,13 @@ std::vector<SweepRow> sweep_isovalues(const BenchIsosurfaceOptions& options, con
   }
   BenchIsosurfaceOptions with_value = options;
   with_value.value = sweep.first;
+  with_value.variant = "vector";
   check_options(with_value);
-  const BenchVolume volume = load_bench_volume(with_value, job);
+  if (options.tables != "trilinear") {
+    throw Error(ErrorCode::kUsage, "a sweep compares cubes and vector with the trilinear tables",
+                "leave --tables out");
+  }
+  const BenchVolume volume = load_bench_volume(with_value, job.part(0, 0));
   const Field field = field_of(volume);
   ExtractOptions how;
   how.normals = options.normals;

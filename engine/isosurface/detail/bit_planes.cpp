@@ -7,7 +7,9 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstring>
 #include <type_traits>
 
 #include "engine/isosurface/detail/bit_planes.h"
@@ -18,105 +20,136 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// One bit for each of 64 values; test(at) is the mask of the lanes from `at` on. Lanes of which no bit is
-// wanted are left out.
-template <bool kAll, class Test>
-HWY_INLINE std::uint64_t word_of([[maybe_unused]] std::uint64_t wanted, Test&& test) {
-  const hn::ScalableTag<float> d;
-  constexpr std::size_t kLanes = hn::MaxLanes(hn::ScalableTag<float>());
-  constexpr std::uint64_t kGroup = (std::uint64_t{1} << kLanes) - 1;
+// Samples that are looked at together: a line of the cache.
+constexpr std::size_t kGroup = 16;
+
+using Floats = hn::ScalableTag<float>;
+using Float = hn::Vec<Floats>;
+
+// A bit for each of kGroup values; test(at) is the mask of the lanes from `at` on.
+template <class Test>
+HWY_INLINE std::uint16_t group_of(Test&& test) {
+  constexpr std::size_t kLanes = hn::MaxLanes(Floats());
+  static_assert(kLanes <= kGroup);
   using Part = std::conditional_t<(kLanes > 8), std::uint16_t, std::uint8_t>;
-  static_assert(kLanes <= 16);
-  std::uint64_t word = 0;
-  for (std::size_t at = 0; at < 64; at += kLanes) {
-    if (!kAll && (wanted >> at & kGroup) == 0) continue;
+  unsigned group = 0;
+  for (std::size_t at = 0; at < kGroup; at += kLanes) {
     std::uint8_t bits[sizeof(Part)];
-    hn::StoreMaskBits(d, test(at), bits);
-    word |= std::uint64_t{std::bit_cast<Part>(bits)} << at;
+    hn::StoreMaskBits(Floats(), test(at), bits);
+    group |= unsigned{std::bit_cast<Part>(bits)} << at;
   }
-  return word;
+  return static_cast<std::uint16_t>(group);
 }
 
-using Sum = hn::Vec<hn::ScalableTag<float>>;
-
 // `sum` becomes no number where there is a null (and it may for infinite values, too).
-template <bool kAll>
-HWY_INLINE std::uint64_t sign_word(const float* HWY_RESTRICT samples, Sum level, std::uint64_t wanted,
-                                   Sum& sum) {
-  const hn::ScalableTag<float> d;
-  return word_of<kAll>(wanted, [&](std::size_t at) HWY_ATTR {
-    const auto v = hn::LoadU(d, samples + at);
+HWY_INLINE std::uint16_t signs_of(const float* HWY_RESTRICT samples, Float level, Float& sum) {
+  return group_of([&](std::size_t at) HWY_ATTR {
+    const auto v = hn::LoadU(Floats(), samples + at);
     sum = hn::Add(sum, v);
     return hn::Ge(v, level);
   });
 }
-
-HWY_INLINE std::uint64_t known_word(const float* HWY_RESTRICT samples) {
-  const hn::ScalableTag<float> d;
-  return word_of<true>(0, [&](std::size_t at) HWY_ATTR {
-    const auto v = hn::LoadU(d, samples + at);
+HWY_INLINE std::uint16_t known_of(const float* HWY_RESTRICT samples) {
+  return group_of([&](std::size_t at) HWY_ATTR {
+    const auto v = hn::LoadU(Floats(), samples + at);
     return hn::Eq(v, v);
   });
 }
 
-// The processor's own prefetching ends with each small page.
-HWY_INLINE void prefetch(const float* samples) {
-  constexpr std::size_t kAhead = 384;
-  for (std::size_t line = 0; line < 64; line += 16) hwy::Prefetch(samples + kAhead + line);
+// The groups of a row that are wanted, ascending; `ahead` is where the samples are that will be needed soon.
+struct Groups {
+  std::vector<std::uint32_t> places;
+  std::size_t count = 0;
+  std::ptrdiff_t ahead = 0;
+};
+
+HWY_INLINE void put(std::uint16_t group, std::uint32_t place, std::uint64_t* row) {
+  std::memcpy(reinterpret_cast<unsigned char*>(row) + 2 * std::size_t{place}, &group, sizeof(group));
 }
 
-// cells: the rows of cells around the row of samples.
-void scan_row(const Frame& frame, const float* samples, const std::uint64_t* const* cells, int count,
-              const BitPlanes::Row& into) {
-  const hn::ScalableTag<float> d;
-  const auto level = hn::Set(d, frame.isovalue);
-  auto sum = hn::Zero(d);
+void scan_row(const Frame& frame, const float* samples, const Groups& groups, const BitPlanes::Row& into) {
+  const auto level = hn::Set(Floats(), frame.isovalue);
+  auto sum = hn::Zero(Floats());
   const float* const end = frame.values + frame.field->values.size();
-  // The last word of the field's last rows would be read from beyond the end.
-  alignas(64) float last[64] = {};
-  const auto samples_of = [&](std::size_t w) -> const float* {
-    const float* const at = samples + 64 * w;
-    if (HWY_LIKELY(end - at >= 64)) return at;
-    std::copy(at, end, last);
-    return last;
-  };
-  const auto wanted_of = [&](std::size_t w) {
-    std::uint64_t cell = 0;
-    std::uint64_t before = 0;
-    for (int n = 0; n < count; ++n) {
-      cell |= cells[n][w];
-      if (w > 0) before |= cells[n][w - 1] >> 63;
-    }
-    return cell | cell << 1 | before;
-  };
-  for (std::size_t w = 0; w < frame.words; ++w) {
-    const std::uint64_t wanted = wanted_of(w);
-    if (wanted == ~std::uint64_t{0}) {
-      prefetch(samples + 64 * w);
-      into.inside[w] = sign_word<true>(samples_of(w), level, wanted, sum);
-    } else if (wanted != 0) {
-      into.inside[w] = sign_word<false>(samples_of(w), level, wanted, sum);
+  // The last group of the field's last row would be read from beyond the end.
+  std::size_t whole = groups.count;
+  while (whole > 0 && end - samples < static_cast<std::ptrdiff_t>(kGroup * (groups.places[whole - 1] + 1)))
+    --whole;
+  float last[kGroup] = {};
+  if (whole < groups.count) {
+    const float* const at = samples + kGroup * groups.places[whole];
+    if (at < end) std::copy(at, end, last);
+  }
+  for (std::size_t n = 0; n < whole; ++n) {
+    const std::uint32_t place = groups.places[n];
+    const float* const at = samples + kGroup * place;
+    hwy::Prefetch(at + groups.ahead);
+    put(signs_of(at, level, sum), place, into.inside);
+  }
+  if (whole < groups.count) put(signs_of(last, level, sum), groups.places[whole], into.inside);
+  *into.has_null = hn::AllTrue(Floats(), hn::Eq(sum, sum)) ? 0 : 1;
+  if (HWY_LIKELY(*into.has_null == 0)) return;
+  for (std::size_t n = 0; n < groups.count; ++n) {
+    const std::uint32_t place = groups.places[n];
+    put(known_of(n < whole ? samples + kGroup * place : last), place, into.known);
+  }
+}
+
+// The rows of cells around a row of samples, each once.
+struct Around {
+  std::array<const std::uint64_t*, 4> masks{};
+  friend bool operator==(const Around&, const Around&) = default;
+};
+
+Around around(const Frame& frame, const CellMasks& masks, std::int64_t p, std::int64_t r) {
+  Around found;
+  std::size_t count = 0;
+  for (std::int64_t n = 0; n < 4; ++n) {
+    const std::int64_t cell_p = p - (n & 1);
+    const std::int64_t cell_r = r - (n >> 1);
+    if (cell_p < 0 || cell_r < 0 || cell_p >= frame.cell_planes || cell_r >= frame.cell_rows) continue;
+    const std::uint64_t* const mask = masks.row(cell_p, cell_r);
+    if (mask != nullptr && std::find(found.masks.begin(), found.masks.end(), mask) == found.masks.end()) {
+      found.masks[count++] = mask;
     }
   }
-  *into.has_null = hn::AllTrue(d, hn::Eq(sum, sum)) ? 0 : 1;
-  if (HWY_LIKELY(*into.has_null == 0)) return;
-  for (std::size_t w = 0; w < frame.words; ++w)
-    into.known[w] = wanted_of(w) == 0 ? 0 : known_word(samples_of(w));
+  return found;
+}
+
+void find_groups(const Frame& frame, const Around& cells, Groups& into) {
+  into.places.resize(frame.words * (64 / kGroup) + 1);
+  std::uint32_t* place = into.places.data();
+  std::uint64_t before = 0;
+  for (std::size_t w = 0; w < frame.words; ++w) {
+    std::uint64_t cell = 0;
+    for (const std::uint64_t* const mask : cells.masks) {
+      if (mask != nullptr) cell |= mask[w];
+    }
+    const std::uint64_t samples = cell | cell << 1 | before;
+    before = cell >> 63;
+    for (std::uint32_t group = 0; group < 64 / kGroup; ++group) {
+      *place = static_cast<std::uint32_t>(w * (64 / kGroup)) + group;
+      place += (samples >> (kGroup * group) & 0xffff) != 0 ? 1 : 0;
+    }
+  }
+  into.count = static_cast<std::size_t>(place - into.places.data());
+  // The processor's own prefetching ends with each small page, and does not see which groups are left out:
+  // most rows want the same ones as the rows before them.
+  constexpr std::ptrdiff_t kAhead = 384;
+  constexpr std::ptrdiff_t kRowsAhead = 4;
+  const bool all = into.count * kGroup >= static_cast<std::size_t>(frame.row_step);
+  into.ahead = all ? kAhead : kRowsAhead * frame.row_step;
 }
 
 void scan_plane(const Frame& frame, const CellMasks& masks, std::int64_t p, BitPlanes& into) {
+  Groups groups;
+  Around before;
   for (std::int64_t r = 0; r < frame.sample_rows; ++r) {
-    const std::uint64_t* around[4];
-    int count = 0;
-    for (std::int64_t n = 0; n < 4; ++n) {
-      const std::int64_t cell_p = p - (n & 1);
-      const std::int64_t cell_r = r - (n >> 1);
-      if (cell_p < 0 || cell_r < 0 || cell_p >= frame.cell_planes || cell_r >= frame.cell_rows) continue;
-      const std::uint64_t* const mask = masks.row(cell_p, cell_r);
-      if (mask == nullptr || (count > 0 && around[count - 1] == mask)) continue;
-      around[count++] = mask;
-    }
-    if (count > 0) scan_row(frame, frame.samples(p, r), around, count, into.row_to_scan(p, r));
+    const Around here = around(frame, masks, p, r);
+    if (here.masks[0] == nullptr) continue;
+    if (here != before) find_groups(frame, here, groups);
+    before = here;
+    scan_row(frame, frame.samples(p, r), groups, into.row_to_scan(p, r));
   }
 }
 
@@ -135,7 +168,7 @@ HWY_EXPORT(scan_plane);
 BitPlanes::BitPlanes(const Frame& frame)
     : rows_(frame.sample_rows),
       words_(frame.words),
-      inside_(static_cast<std::size_t>(kPlanes * rows_) * words_ + 1),
+      inside_(static_cast<std::size_t>(kPlanes * rows_) * words_ + kWordSlack + 1),
       known_(inside_.size()),
       has_null_(static_cast<std::size_t>(kPlanes * rows_)) {}
 

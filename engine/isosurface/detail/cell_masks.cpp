@@ -21,7 +21,7 @@ void set_bits(std::uint64_t* words, std::int64_t from, std::int64_t to) {
 
 CellMasks::CellMasks(const Frame& frame, const Bricks* bricks) : words_a_row_(frame.words) {
   if (bricks == nullptr) {
-    words_.assign(words_a_row_, 0);
+    words_.assign(words_a_row_ + kWordSlack, 0);
     set_bits(words_.data(), frame.cells.lo[2], frame.cells.hi[2]);
     any_.assign(1, 1);
     plane_any_.assign(1, 1);
@@ -38,7 +38,7 @@ CellMasks::CellMasks(const Frame& frame, const Bricks* bricks) : words_a_row_(fr
   first_j_ = frame.cells.lo[1] + frame.field->origin[1] - (touched.lo[1] << kBrickShift);
   columns_ = touched.size(1);
   const auto count = static_cast<std::size_t>(touched.size(0) * columns_);
-  words_.assign(count * words_a_row_, 0);
+  words_.assign(count * words_a_row_ + kWordSlack, 0);
   any_.assign(count, 0);
   plane_any_.assign(static_cast<std::size_t>(touched.size(0)), 0);
   constexpr double kIdleBrick = 1.0 / 64;

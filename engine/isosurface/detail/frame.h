@@ -7,6 +7,10 @@
 
 namespace footwall::isosurface::detail {
 
+// Rows of words are followed by this many words that may be read, and written, with a row: vectors need no
+// end.
+inline constexpr std::size_t kWordSlack = 8;
+
 struct Frame {
   Frame(const Field& of, float at, const survey::Box& box);
 

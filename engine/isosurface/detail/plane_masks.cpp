@@ -14,30 +14,40 @@ HWY_BEFORE_NAMESPACE();
 namespace footwall::isosurface::detail::HWY_NAMESPACE {
 namespace {
 
+namespace hn = hwy::HWY_NAMESPACE;
+
 // The word that holds for each bit the one above it.
 HWY_INLINE std::uint64_t upper(std::uint64_t word, std::uint64_t next) {
   return word >> 1 | next << 63;
 }
 
-// rows[c]: the signs of the samples (p + (c & 1), r + (c >> 1)). Returns the OR of what is written.
-HWY_INLINE std::uint64_t mixed_cells(const std::uint64_t* const* rows, const std::uint64_t* HWY_RESTRICT mask,
-                                     std::size_t words, std::uint64_t* HWY_RESTRICT into) {
-  const std::uint64_t* HWY_RESTRICT const a = rows[0];
-  const std::uint64_t* HWY_RESTRICT const b = rows[1];
-  const std::uint64_t* HWY_RESTRICT const c = rows[2];
-  const std::uint64_t* HWY_RESTRICT const d = rows[3];
-  std::uint64_t all = 0;
-  for (std::size_t w = 0; w < words; ++w) {
-    const std::uint64_t some = a[w] | b[w] | c[w] | d[w];
-    const std::uint64_t every = a[w] & b[w] & c[w] & d[w];
-    const std::uint64_t next_some = a[w + 1] | b[w + 1] | c[w + 1] | d[w + 1];
-    const std::uint64_t next_every = a[w + 1] & b[w + 1] & c[w + 1] & d[w + 1];
-    const std::uint64_t active =
-        (some | upper(some, next_some)) & ~(every & upper(every, next_every)) & mask[w];
-    into[w] = active;
-    all |= active;
+// rows[c]: the signs of the samples (p + (c & 1), r + (c >> 1)). Returns the OR of what is written. Up to
+// kWordSlack words more are read, and written.
+HWY_INLINE bool mixed_cells(const std::uint64_t* const* rows, const std::uint64_t* HWY_RESTRICT mask,
+                            std::size_t words, std::uint64_t* HWY_RESTRICT into) {
+  const hn::ScalableTag<std::uint64_t> d;
+  static_assert(hn::MaxLanes(hn::ScalableTag<std::uint64_t>()) <= kWordSlack);
+  auto all = hn::Zero(d);
+  for (std::size_t w = 0; w < words; w += hn::Lanes(d)) {
+    auto some = hn::Zero(d);
+    auto next_some = hn::Zero(d);
+    auto every = hn::Not(some);
+    auto next_every = every;
+    for (int c = 0; c < 4; ++c) {
+      const auto here = hn::LoadU(d, rows[c] + w);
+      const auto next = hn::LoadU(d, rows[c] + w + 1);
+      some = hn::Or(some, here);
+      every = hn::And(every, here);
+      next_some = hn::Or(next_some, next);
+      next_every = hn::And(next_every, next);
+    }
+    some = hn::Or(some, hn::Or(hn::ShiftRight<1>(some), hn::ShiftLeft<63>(next_some)));
+    every = hn::And(every, hn::Or(hn::ShiftRight<1>(every), hn::ShiftLeft<63>(next_every)));
+    const auto active = hn::And(hn::AndNot(every, some), hn::LoadU(d, mask + w));
+    hn::StoreU(active, d, into + w);
+    all = hn::Or(all, hn::IfThenElseZero(hn::FirstN(d, words - w), active));
   }
-  return all;
+  return !hn::AllTrue(d, hn::Eq(all, hn::Zero(d)));
 }
 
 // Whether the row has active cells.
@@ -45,17 +55,17 @@ bool active_row(const Frame& frame, const std::uint64_t* mask, const BitPlanes& 
                 std::int64_t r, std::uint64_t* words) {
   const std::uint64_t* const rows[4] = {planes.inside(p, r), planes.inside(p + 1, r), planes.inside(p, r + 1),
                                         planes.inside(p + 1, r + 1)};
-  std::uint64_t all = mixed_cells(rows, mask, frame.words, words);
-  for (std::int64_t c = 0; c < 4 && all != 0; ++c) {
+  bool any = mixed_cells(rows, mask, frame.words, words);
+  for (std::int64_t c = 0; c < 4 && any; ++c) {
     if (!planes.has_null(p + (c & 1), r + (c >> 1))) continue;
     const std::uint64_t* const known = planes.known(p + (c & 1), r + (c >> 1));
-    all = 0;
+    any = false;
     for (std::size_t w = 0; w < frame.words; ++w) {
       words[w] &= known[w] & upper(known[w], known[w + 1]);
-      all |= words[w];
+      any = any || words[w] != 0;
     }
   }
-  return all != 0;
+  return any;
 }
 
 void active_plane(const Frame& frame, const CellMasks& masks, const BitPlanes& planes, std::int64_t p,

@@ -14,7 +14,7 @@ namespace footwall::isosurface::detail {
 // (before the first, after the last) have none.
 struct ActiveCells {
   explicit ActiveCells(const Frame& frame)
-      : words(static_cast<std::size_t>(frame.cell_rows) * frame.words),
+      : words(static_cast<std::size_t>(frame.cell_rows) * frame.words + kWordSlack),
         first(static_cast<std::size_t>(frame.cell_rows) + 1) {}
 
   std::int64_t from = 0;  // the rows outside [from, to) have none, and their entries mean nothing
@@ -32,22 +32,22 @@ struct WordMasks {
   std::uint32_t unused = 0;              // so that vectors of four can be read from both
 };
 
-// Writes the places of the bits, ascending, `first` for bit 0, and returns where the next one goes; writes up
-// to three more than there are.
+// Writes the places of the bits, ascending, `first_place` for bit 0, and returns where the next one goes;
+// writes up to kListSlack more than there are.
+inline constexpr std::size_t kListSlack = 2;
 template <class Number>
 inline Number* list_bits(std::uint64_t bits, Number first_place, Number* into) {
   Number* const end = into + std::popcount(bits);
-  // Most words have few: four at a time, without asking how many there are, spare mispredicted branches.
+  // Most words have few: two at a time, without asking how many there are, spares mispredicted branches.
   while (true) {
-    for (int n = 0; n < 4; ++n) {
+    for (int n = 0; n < 2; ++n) {
       into[n] = first_place + static_cast<Number>(std::countr_zero(bits));
       bits &= bits - 1;
     }
     if (bits == 0) return end;
-    into += 4;
+    into += 2;
   }
 }
-inline constexpr std::size_t kListSlack = 4;
 
 struct PlaneMasks {
   explicit PlaneMasks(const Frame& frame)

@@ -57,6 +57,7 @@ class Sweep {
       plane.nulls.resize(shape_.room());
       plane.alternatives.resize(shape_.room());
       plane.centres.resize(shape_.room());
+      plane.row_passed.resize(static_cast<std::size_t>(shape_.rows));
     }
   }
 
@@ -81,23 +82,45 @@ class Sweep {
     std::vector<std::uint8_t> signs, nulls;
     std::vector<Alternative> alternatives;  // of undecided cells
     std::vector<std::uint32_t> centres;     // numbers of the centre vertices
+    std::vector<std::uint8_t> row_passed;   // whether the surface passes a cell of the row
     bool has_nulls = false;
   };
   Cells& cells_of_plane(std::int64_t i) { return cells_[i & 1]; }
 
-  // Calls visit(k) where marks[at(j, k)] is not zero, eight samples at a glance.
+  // 64 bytes.
+  using Words = std::array<std::uint64_t, 8>;
+  static Words words_at(const std::uint8_t* bytes) {
+    Words words;
+    std::memcpy(words.data(), bytes, sizeof words);
+    return words;
+  }
+  static std::uint64_t any_of(const Words& words) {
+    std::uint64_t any = 0;
+    for (const std::uint64_t word : words) any |= word;
+    return any;
+  }
+  static std::uint64_t all_of(const Words& words) {
+    std::uint64_t all = ~std::uint64_t{0};
+    for (const std::uint64_t word : words) all &= word;
+    return all;
+  }
+
+  // Calls visit(k) where marks[at(j, k)] is not zero; 64 samples at a glance, then eight.
   template <class Visit>
   void for_each_mark(const std::vector<std::uint8_t>& marks, std::int64_t j, std::int64_t count,
                      Visit&& visit) {
     const std::uint8_t* const row = marks.data() + shape_.at(j, shape_.first_k);
-    for (std::int64_t n = 0; n < count; n += 8) {
-      std::uint64_t eight = 0;
-      std::memcpy(&eight, row + n, sizeof eight);
-      while (eight != 0) {
-        const int byte = std::countr_zero(eight) / 8;
-        if (n + byte >= count) break;
-        visit(shape_.first_k + n + byte);
-        eight &= ~(std::uint64_t{0xff} << (8 * byte));
+    for (std::int64_t first = 0; first < count; first += 64) {
+      const Words words = words_at(row + first);
+      if (any_of(words) == 0) continue;
+      for (std::int64_t n = first; n < std::min(first + 64, count); n += 8) {
+        std::uint64_t eight = words[(n - first) / 8];
+        while (eight != 0) {
+          const int byte = std::countr_zero(eight) / 8;
+          if (n + byte >= count) break;
+          visit(shape_.first_k + n + byte);
+          eight &= ~(std::uint64_t{0xff} << (8 * byte));
+        }
       }
     }
   }
@@ -150,18 +173,17 @@ class Sweep {
     return draft_.add_vertex(axis, i, j, k, t, normal_vector);
   }
 
-  // Calls visit(k, place) for the cells of a row that the surface passes, eight cells at a glance.
+  // Calls visit(k, place) for the cells of a row that the surface passes, 64 cells at a glance.
   template <class Visit>
   void for_each_active(const Cells& cells, std::int64_t j, Visit&& visit) {
     const std::size_t row = shape_.at(j, shape_.first_k);
     const std::int64_t count = shape_.columns - 1;
-    for (std::int64_t n = 0; n < count; n += 8) {
-      std::uint64_t eight = 0;
-      std::memcpy(&eight, cells.signs.data() + row + n, sizeof eight);
-      if (eight == 0 || eight == ~std::uint64_t{0}) continue;
-      for (std::int64_t c = n; c < std::min(n + 8, count); ++c) {
-        const std::size_t p = row + static_cast<std::size_t>(c);
-        if (cells.signs[p] != 0 && cells.signs[p] != 255 && cells.nulls[p] == 0) visit(shape_.first_k + c, p);
+    for (std::int64_t first = 0; first < count; first += 64) {
+      const Words words = words_at(cells.signs.data() + row + first);
+      if (any_of(words) == 0 || all_of(words) == ~std::uint64_t{0}) continue;
+      for (std::int64_t n = first; n < std::min(first + 64, count); ++n) {
+        const std::size_t p = row + static_cast<std::size_t>(n);
+        if (cells.signs[p] != 0 && cells.signs[p] != 255 && cells.nulls[p] == 0) visit(shape_.first_k + n, p);
       }
     }
   }
@@ -170,7 +192,10 @@ class Sweep {
   // place once the vertices around them have theirs.
   void decide_row(std::int64_t i, std::int64_t j) {
     Cells& cells = cells_of_plane(i);
+    std::uint8_t& passed = cells.row_passed[static_cast<std::size_t>(j - shape_.first_j)];
+    passed = 0;
     for_each_active(cells, j, [&](std::int64_t k, std::size_t p) {
+      passed = 1;
       const unsigned signs = cells.signs[p];
       cells.alternatives[p] = 0;
       if (table_.undecided(signs)) {
@@ -189,12 +214,15 @@ class Sweep {
   // Connects the intersections of the cells between planes i and i + 1.
   void march(std::int64_t i) {
     const Cells& cells = cells_of_plane(i);
+    std::array<const std::uint32_t*, kCentre> numbers;  // on the edges of the cell at place 0
+    for (int edge = 0; edge < kCentre; ++edge) numbers[edge] = numbers_on(edge, i);
     for (std::int64_t j = draft_.cells.lo[1]; j < draft_.cells.hi[1]; ++j) {
       draft_.begin_row();
+      if (cells.row_passed[static_cast<std::size_t>(j - shape_.first_j)] == 0) continue;
       for_each_active(cells, j, [&](std::int64_t, std::size_t p) {
         const auto entry = table_.entry(cells.signs[p], cells.alternatives[p]);
         std::array<std::uint32_t, kCentre + 1> vertex;
-        for (int edge = 0; edge < kCentre; ++edge) vertex[edge] = number_on(edge, i, p);
+        for (int edge = 0; edge < kCentre; ++edge) vertex[edge] = numbers[edge][p];
         vertex[kCentre] = cells.centres[p];
         if (entry.has_centre) {
           std::array<std::uint32_t, kCentre> loop;
@@ -211,16 +239,16 @@ class Sweep {
     }
   }
 
-  // Of an edge that is not crossed, whatever was there.
-  std::uint32_t number_on(int edge, std::int64_t i, std::size_t p) const {
+  // Of edges that are not crossed, whatever was there.
+  const std::uint32_t* numbers_on(int edge, std::int64_t i) const {
     const int axis = edge / 4, low = edge & 1, high = edge >> 1 & 1;
     switch (axis) {
       case 0:
-        return numbers_[i & 1][0][p + static_cast<std::size_t>(low * shape_.stride + high)];
+        return numbers_[i & 1][0].data() + low * shape_.stride + high;
       case 1:
-        return numbers_[(i + low) & 1][1][p + static_cast<std::size_t>(high)];
+        return numbers_[(i + low) & 1][1].data() + high;
       default:
-        return numbers_[(i + low) & 1][2][p + static_cast<std::size_t>(high * shape_.stride)];
+        return numbers_[(i + low) & 1][2].data() + high * shape_.stride;
     }
   }
 

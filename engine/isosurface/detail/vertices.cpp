@@ -37,7 +37,8 @@ void list_plane(const Frame& frame, const PlaneMasks& here, const SlowCell* slow
     const WordMasks* const words = here.words.data() + static_cast<std::size_t>(r) * frame.words;
     for (const std::size_t axis : {2U, 1U, 0U}) {
       if (counts.edges[axis] == 0) continue;
-      std::fill(place, place + counts.edges[axis], 4 * j + static_cast<std::int32_t>(axis));
+      const Int value = hn::Set(kInts, 4 * j + static_cast<std::int32_t>(axis));
+      for (std::uint32_t n = 0; n < counts.edges[axis]; n += kStep) hn::StoreU(value, kInts, place + n);
       place += counts.edges[axis];
       auto first = row;
       for (std::size_t w = 0; w < frame.words; ++w, first += 64) {
@@ -257,9 +258,11 @@ void list_vertices(const Frame& frame, const PlaneMasks& here, std::span<const S
     const PlaneMasks::RowCounts& counts = here.counts[static_cast<std::size_t>(r)];
     if (counts.any) into.count += counts.edges[0] + counts.edges[1] + counts.edges[2] + counts.centres;
   }
-  if (into.offset.size() < into.count + kListSlack) {
-    into.offset.resize(into.count + kListSlack);
-    into.place.resize(into.count + kListSlack);
+  constexpr std::size_t kSlack = 64;  // kListSlack, and a vector
+  static_assert(kSlack >= kListSlack && kSlack >= HWY_MAX_BYTES / sizeof(std::int32_t));
+  if (into.offset.size() < into.count + kSlack) {
+    into.offset.resize(into.count + kSlack);
+    into.place.resize(into.count + kSlack);
   }
   HWY_DYNAMIC_DISPATCH(list_plane)(frame, here, slow.data(), slow.data() + slow.size(), into);
 }

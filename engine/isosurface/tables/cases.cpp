@@ -12,7 +12,7 @@ namespace {
 constexpr unsigned kTunnelBits[2] = {1U << 7, 1U << 6};  // of outside, of inside corners
 
 Entry made(unsigned signs, unsigned joined, const Contours& contours, const std::optional<Tunnel>& tunnel) {
-  const std::optional<Filling> filling = fill(contours, tunnel);
+  const std::optional<Filling> filling = fill(signs, contours, tunnel);
   if (!filling)
     throw std::runtime_error("no triangulation of signs " + std::to_string(signs) + " with joined faces " +
                              std::to_string(joined) + (tunnel ? " and a tunnel" : ""));

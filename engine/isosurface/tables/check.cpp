@@ -153,7 +153,7 @@ std::string fault_of(unsigned signs, unsigned alternative, const Entry& entry, b
   if (vertices != wanted) return "vertices that are not the cut edges'";
   if (beside_centre != entry.filling.centre_edges) return "a centre beside other vertices than it says";
   for (int face = 0; face < 6; ++face) {
-    const std::string fault = face_fault(signs, (alternative >> face & 1U) != 0, face, border);
+    std::string fault = face_fault(signs, (alternative >> face & 1U) != 0, face, border);
     if (!fault.empty()) return fault;
   }
   int used = 0;
@@ -166,6 +166,10 @@ std::string fault_of(unsigned signs, unsigned alternative, const Entry& entry, b
   if (used - edges + static_cast<int>(triangles.size()) != entry.loops - 2 * entry.tunnels)
     return "the wrong Euler number";
   if (parts_of(triangles) != entry.loops - entry.tunnels) return "the wrong number of parts";
+  const bool above = (alternative >> 6 & 1U) != 0;
+  const Places places = places_of(signs, entry.tunnels != 0 ? std::optional(above) : std::nullopt);
+  if (!chords && !is_embedded(triangles, with_centre(places, entry.filling.centre_edges)))
+    return "patches that cut each other";
   return "";
 }
 

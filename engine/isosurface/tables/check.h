@@ -13,7 +13,9 @@ namespace footwall::isosurface::tables {
 // unless
 //   the neighbour cannot have it (with `chords` any may);
 // - the triangles around every vertex hang together, and every cut edge has its vertex;
-// - the parts and the Euler number are those of discs, and of one ring if there is a tunnel.
+// - the parts and the Euler number are those of discs, and of one ring if there is a tunnel;
+// - with vertices in the middle of their edges the triangles have an area and do not cut each other (unless
+//   `chords`).
 std::string fault_of(unsigned signs, unsigned alternative, const Entry& entry, bool chords);
 
 // Compares the tables with `samples` random trilinear fields for every sign case: the Euler number and the

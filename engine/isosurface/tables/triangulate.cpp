@@ -1,8 +1,6 @@
 #include "engine/isosurface/tables/triangulate.h"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "engine/isosurface/tables/cell.h"
 
@@ -11,54 +9,11 @@ namespace {
 
 constexpr double kSameArea = 1e-9;  // below, the first one found stays: the order of sums must not decide
 
-using Vector = std::array<double, 3>;
-
-Vector middle(int edge) {
-  Vector at{};
-  for (int axis = 0; axis < 3; ++axis)
-    at[axis] = ((lower_corner(edge) >> axis & 1) + (upper_corner(edge) >> axis & 1)) / 2.0;
-  return at;
-}
-
-double area(const Vector& a, const Vector& b, const Vector& c) {
-  double sum = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const int u = (axis + 1) % 3;
-    const int v = (axis + 2) % 3;
-    const double part = (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
-    sum += part * part;
-  }
-  return std::sqrt(sum) / 2;
-}
-
-unsigned vertices_beside_centre(const Triangles& triangles) {
-  unsigned beside = 0;
-  for (const std::array<int, 3>& triangle : triangles) {
-    if (std::find(triangle.begin(), triangle.end(), kCentreVertex) == triangle.end()) continue;
-    for (const int vertex : triangle) {
-      if (vertex != kCentreVertex) beside |= 1U << vertex;
-    }
-  }
-  return beside;
-}
-
-double area(const Triangles& triangles) {
-  const unsigned beside = vertices_beside_centre(triangles);
-  Vector centre{};
-  for (int edge = 0; edge < 12; ++edge) {
-    if ((beside >> edge & 1U) == 0) continue;
-    for (int axis = 0; axis < 3; ++axis) centre[axis] += middle(edge)[axis] / std::popcount(beside);
-  }
-  const auto at = [&](int vertex) { return vertex == kCentreVertex ? centre : middle(vertex); };
-  double sum = 0;
-  for (const auto& [a, b, c] : triangles) sum += area(at(a), at(b), at(c));
-  return sum;
-}
-
 struct Means {
   bool chords = false;  // on faces of the cell, those that are its own
   bool centre = false;
 };
+// The first that gives a triangulation is taken.
 constexpr std::array<Means, 4> kMeans{{{false, false}, {false, true}, {true, false}, {true, true}}};
 
 bool may_join(int a, int b, bool chords) {
@@ -72,7 +27,7 @@ bool may_join(int a, int b, bool chords) {
 // at most one vertex inside; keeps the one of the smallest area.
 class Search {
  public:
-  explicit Search(const Means& means) : means_(means) {}
+  Search(const Places& places, const Means& means) : places_(places), means_(means) {}
 
   void run(const Loop& polygon) {
     open_ = {polygon};
@@ -127,12 +82,15 @@ class Search {
   }
 
   void judge() {
-    const double found = area(done_);
+    const Places places = with_centre(places_, vertices_beside_centre(done_));
+    const double found = area(done_, places);
     if (best_ && found > best_area_ - kSameArea) return;
+    if (!is_embedded(done_, places)) return;
     best_ = done_;
     best_area_ = found;
   }
 
+  const Places& places_;
   Means means_;
   std::vector<Loop> open_;
   Triangles done_;
@@ -140,8 +98,8 @@ class Search {
   double best_area_ = 0;
 };
 
-std::optional<Triangles> disc(const Loop& loop, const Means& means) {
-  Search search(means);
+std::optional<Triangles> disc(const Loop& loop, const Places& places, const Means& means) {
+  Search search(places, means);
   search.run(loop);
   return search.best();
 }
@@ -154,8 +112,8 @@ Loop turned(const Loop& loop, std::size_t first) {
 }
 
 // A ring, cut along one of its edges from loop to loop, is a polygon.
-std::optional<Triangles> ring(const Loop& a, const Loop& b, const Means& means) {
-  Search search(means);
+std::optional<Triangles> ring(const Loop& a, const Loop& b, const Places& places, const Means& means) {
+  Search search(places, means);
   for (std::size_t n = 0; n < a.size(); ++n) {
     for (std::size_t m = 0; m < b.size(); ++m) {
       if (!may_join(a[n], b[m], means.chords)) continue;
@@ -170,8 +128,9 @@ std::optional<Triangles> ring(const Loop& a, const Loop& b, const Means& means) 
 
 }  // namespace
 
-std::optional<Filling> fill(const Contours& contours, const std::optional<Tunnel>& tunnel) {
+std::optional<Filling> fill(unsigned signs, const Contours& contours, const std::optional<Tunnel>& tunnel) {
   Filling filling;
+  const Places places = places_of(signs, tunnel ? std::optional(tunnel->inside) : std::nullopt);
   const auto add = [&](const auto& patch) {
     for (const Means& means : kMeans) {
       if (means.centre && filling.centre_edges != 0) continue;
@@ -187,10 +146,10 @@ std::optional<Filling> fill(const Contours& contours, const std::optional<Tunnel
     const bool in_tunnel =
         tunnel && (static_cast<int>(n) == tunnel->from || static_cast<int>(n) == tunnel->to);
     if (in_tunnel) continue;
-    if (!add([&](const Means& means) { return disc(contours.loops[n], means); })) return std::nullopt;
+    if (!add([&](const Means& means) { return disc(contours.loops[n], places, means); })) return std::nullopt;
   }
   if (tunnel && !add([&](const Means& means) {
-        return ring(contours.loops[tunnel->from], contours.loops[tunnel->to], means);
+        return ring(contours.loops[tunnel->from], contours.loops[tunnel->to], places, means);
       }))
     return std::nullopt;
   return filling;

@@ -71,7 +71,7 @@ void write_packed(std::ostringstream& out, const std::vector<SignCase>& all) {
 
 }  // namespace
 
-std::string as_source(const std::vector<SignCase>& all) {
+std::string as_source(const std::vector<SignCase>& all, const std::string& comment) {
   Pool patterns;
   Pool fans;
   std::vector<unsigned> first;
@@ -88,8 +88,8 @@ std::string as_source(const std::vector<SignCase>& all) {
     cut.push_back(edges);
   }
   std::ostringstream out;
-  out << "// Written by the build (engine/isosurface/tables); not to be edited.\n"
-         "#include \"engine/isosurface/case_tables.h\"\n\n"
+  out << "// Written by the build (engine/isosurface/tables); not to be edited.\n// " << comment
+      << "\n#include \"engine/isosurface/case_tables.h\"\n\n"
          "namespace footwall::isosurface::tables {\nnamespace {\n\n";
   write_pool(out, patterns, "kFilled");
   write_pool(out, fans, "kFanned");

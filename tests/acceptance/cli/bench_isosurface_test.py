@@ -100,6 +100,8 @@ class BenchIsosurface(FootwallTest):
         self.assertIn("vector", self.refused(2, *sphere, "--variant", "octree")["hint"])
         self.assertIn("gyroid", self.refused(2, "bench", "isosurface", "--synthetic", "cube")["hint"])
         self.refused(2, *sphere, "--sweep", "1:2")
+        self.refused(2, *sphere, "--sweep", "1:2:3", "--pyramid")
+        self.refused(2, *sphere, "--sweep", "1:2:3", "--tables", "seed")
         self.refused(2, *sphere, "--repeat", 0)
 
 

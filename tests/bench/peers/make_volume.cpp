@@ -1,7 +1,7 @@
 // The volumes that isosurfaces are compared on, as raw float32: make_volume KIND N FILE, N^3 samples.
 //
 //   sphere    0.4 N minus the distance from the middle; isovalue 0
-//   envelope  the envelope of a sum of wavelets of random dip, seismic in its spectrum; isovalue 0.71
+//   envelope  the envelope of a sum of wavelets of random dip, seismic in its spectrum; isovalue 1.53
 //   gyroid    8.38 periods along each axis; isovalue 0
 #include <fmt/format.h>
 

@@ -42,7 +42,7 @@ double volume_by_cells(const SampleVolume& volume, float isovalue) {
 
 TEST(Cap, ClosesEverySurface) {
   for (const survey::Index& size : {survey::Index{2, 2, 2}, {2, 3, 9}, {5, 6, 7}, {9, 2, 4}}) {
-    for (unsigned seed = 1; seed <= 20; ++seed) {
+    for (unsigned seed = 1; seed <= 50; ++seed) {
       const SampleVolume volume = random_volume(size, seed);
       const Surface surface = capped(volume.field(), 0.1F);
       const Properties found = properties_of(surface, Measure());
@@ -55,6 +55,16 @@ TEST(Cap, ClosesEverySurface) {
       EXPECT_LE(*found.volume,
                 static_cast<double>((size[0] - 1) * (size[1] - 1) * (size[2] - 1)) * (1 + 1e-9));
     }
+  }
+}
+
+TEST(Cap, ClosesSurfacesThroughSamples) {
+  std::mt19937 random(1);
+  for (int round = 0; round < 100; ++round) {
+    const SampleVolume steps = sampled({4, 4, 5}, [&](auto...) { return static_cast<double>(random() % 3); });
+    const Properties found = properties_of(capped(steps.field(), 1), Measure());
+    EXPECT_EQ(found.non_manifold_edges, 0u);
+    EXPECT_TRUE(found.volume.has_value());
   }
 }
 
