@@ -37,6 +37,17 @@ class Topology(FootwallTest):
         self.assertEqual(self.bench()["mismatches"],
                          [{"id": "out", "expected": {"boundary_edges": 0}, "got": {"boundary_edges": 3}}])
 
+    def test_random_cells_are_those_of_the_sampled_field(self):
+        found = {name: self.footwall("bench", "topology", "--cells", 5120, "--tables", name)
+                 for name in ("trilinear", "seed000", "seed002")}
+        self.assertEqual(found["trilinear"]["cells"], 5120)
+        self.assertEqual(found["trilinear"]["cell_mismatches"], 0)
+        self.assertLess(found["trilinear"]["cells_undecided"], 500)
+        self.assertGreater(found["seed000"]["cell_mismatches"], 0)
+        self.assertGreater(found["seed002"]["cell_mismatches"], found["seed000"]["cell_mismatches"])
+        self.assertIn("nothing to compare", self.refused(2, "bench", "topology")["message"])
+        self.refused(2, "bench", "topology", "--cells", -1)
+
     def test_wrong_files_are_refused_with_their_line(self):
         for text, part in ((HEADING + "1,2,3\n", "line 2: 3 fields instead of 10"),
                            (HEADING + "1,9,-1,-1,x,-1,-1,-1,-1,4\n", "line 2: 'x' is no sample"),
