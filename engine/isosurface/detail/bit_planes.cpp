@@ -134,11 +134,10 @@ void find_groups(const Frame& frame, const Around& cells, Groups& into) {
   }
   into.count = static_cast<std::size_t>(place - into.places.data());
   // The processor's own prefetching ends with each small page, and does not see which groups are left out:
-  // most rows want the same ones as the rows before them.
+  // the next plane wants the same ones, or nearly so.
   constexpr std::ptrdiff_t kAhead = 384;
-  constexpr std::ptrdiff_t kRowsAhead = 4;
   const bool all = into.count * kGroup >= static_cast<std::size_t>(frame.row_step);
-  into.ahead = all ? kAhead : kRowsAhead * frame.row_step;
+  into.ahead = all ? kAhead : frame.plane_step;
 }
 
 void scan_plane(const Frame& frame, const CellMasks& masks, std::int64_t p, BitPlanes& into) {

@@ -18,8 +18,8 @@ struct FlyingEdges::Vtk {
   vtkSmartPointer<vtkFlyingEdges3D> filter;
 };
 
-FlyingEdges::FlyingEdges(std::vector<float>& values, const std::array<std::int64_t, 3>& dims, float isovalue,
-                         bool normals, int threads)
+FlyingEdges::FlyingEdges(float* values, const std::array<std::int64_t, 3>& dims, float isovalue, bool normals,
+                         int threads)
     : vtk_(std::make_unique<Vtk>()) {
   vtkSMPTools::Initialize(threads);
   vtk_->isovalue = isovalue;
@@ -27,7 +27,7 @@ FlyingEdges::FlyingEdges(std::vector<float>& values, const std::array<std::int64
   // Its first axis is the fastest one.
   vtk_->image->SetDimensions(static_cast<int>(dims[2]), static_cast<int>(dims[1]), static_cast<int>(dims[0]));
   const vtkNew<vtkFloatArray> scalars;
-  scalars->SetArray(values.data(), static_cast<vtkIdType>(values.size()), 1);
+  scalars->SetArray(values, static_cast<vtkIdType>(dims[0] * dims[1] * dims[2]), 1);
   vtk_->image->GetPointData()->SetScalars(scalars);
 }
 

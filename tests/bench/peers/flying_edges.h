@@ -4,13 +4,12 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
 class FlyingEdges {
  public:
-  // values: samples of dims[0] x dims[1] x dims[2], the last axis the fastest; kept, not copied.
-  FlyingEdges(std::vector<float>& values, const std::array<std::int64_t, 3>& dims, float isovalue,
-              bool normals, int threads);
+  // values: dims[0] x dims[1] x dims[2] samples, the last axis the fastest; kept, not copied.
+  FlyingEdges(float* values, const std::array<std::int64_t, 3>& dims, float isovalue, bool normals,
+              int threads);
   ~FlyingEdges();
 
   void run();      // with a new filter if there is none

@@ -63,8 +63,10 @@ struct Times {
   }
 };
 
-std::vector<float> read_raw(const Arguments& arguments) {
-  std::vector<float> values(
+// On huge pages, for both sides: looking up small ones would cost as much as reading the samples.
+PageVector<float> read_raw(const Arguments& arguments) {
+  PageVector<float> values;
+  values.resize_uninitialised(
       static_cast<std::size_t>(arguments.dims[0] * arguments.dims[1] * arguments.dims[2]));
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(arguments.raw.c_str(), "rb"),
                                                              &std::fclose);
@@ -77,10 +79,10 @@ std::vector<float> read_raw(const Arguments& arguments) {
 
 class Footwall {
  public:
-  Footwall(const std::vector<float>& values, const Arguments& arguments, const Bricks* bricks)
+  Footwall(const PageVector<float>& values, const Arguments& arguments, const Bricks* bricks)
       : isovalue_(arguments.value) {
     const survey::Index size{arguments.dims[0], arguments.dims[1], arguments.dims[2]};
-    field_ = {values, size, {0, 0, 0}, size};
+    field_ = {values.all(), size, {0, 0, 0}, size};
     options_.normals = !arguments.no_normals;
     options_.threads = arguments.threads;
     options_.bricks = bricks;
@@ -168,7 +170,7 @@ void check(const FlyingEdges& vtk, Footwall& ours, float isovalue) {
 }
 
 // Reads all of it once.
-std::uint64_t streamed(const std::vector<float>& values) {
+std::uint64_t streamed(const PageVector<float>& values) {
   const auto* const words = reinterpret_cast<const std::uint32_t*>(values.data());
   std::uint32_t all = 0;
   for (std::size_t n = 0; n < values.size(); ++n) all ^= words[n];
@@ -187,8 +189,8 @@ void measure(Side& side, Times& reused, Times& fresh) {
 }
 
 void compare(const Arguments& arguments) {
-  std::vector<float> values = read_raw(arguments);
-  FlyingEdges vtk(values, {arguments.dims[0], arguments.dims[1], arguments.dims[2]}, arguments.value,
+  PageVector<float> values = read_raw(arguments);
+  FlyingEdges vtk(values.data(), {arguments.dims[0], arguments.dims[1], arguments.dims[2]}, arguments.value,
                   !arguments.no_normals, arguments.threads);
   Footwall ours(values, arguments, nullptr);
   // First of all, before there are threads, which a child would not have.
