@@ -51,14 +51,14 @@ void ReleasePages::operator()(std::byte* memory) const {
 
 PageRoom page_room(std::size_t bytes) {
   if (bytes > PTRDIFF_MAX / 2) refuse(bytes);
-  if (bytes >= kHugePage) {
-    const std::size_t whole = rounded_up(bytes, kHugePage);
+  const std::size_t lines = std::max(rounded_up(bytes, kLine), kLine);
+  if (lines >= kHugePage) {
+    const std::size_t whole = rounded_up(lines, kHugePage);
     return {map(whole), ReleasePages{whole}};
   }
-  const std::size_t whole = std::max(rounded_up(bytes, kLine), kLine);
-  void* const memory = std::aligned_alloc(kLine, whole);
+  void* const memory = std::aligned_alloc(kLine, lines);
   if (memory == nullptr) refuse(bytes);
-  return {static_cast<std::byte*>(memory), ReleasePages{whole}};
+  return {static_cast<std::byte*>(memory), ReleasePages{lines}};
 }
 
 PageRoom larger_room(PageRoom room, std::size_t used, std::size_t bytes) {

@@ -40,7 +40,7 @@ class PageVector {
       const std::size_t doubled = std::max({bytes, 2 * room_bytes(), std::size_t{1} << 16});
       const std::size_t wanted =
           doubled > std::size_t{1} << 16 ? std::max(doubled, std::size_t{2} << 20) : doubled;
-      room_ = larger_room(std::move(room_), size_ * sizeof(T), wanted);
+      room_ = larger_room(std::move(room_), std::exchange(size_, 0) * sizeof(T), wanted);
     }
     size_ = size;
   }

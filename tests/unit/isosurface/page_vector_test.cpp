@@ -35,6 +35,19 @@ TEST(PageVector, KeepsItsRoomWhenItShrinks) {
   EXPECT_TRUE(numbers.empty());
 }
 
+TEST(PageVector, KeepsWhatItHasWhenItGrows) {
+  PageVector<std::uint64_t> numbers;
+  std::size_t size = 0;
+  for (const std::size_t next :
+       {std::size_t{3}, std::size_t{20'000}, kHugePage / 8 - 1, kHugePage / 4, kHugePage}) {
+    numbers.grow(next);
+    ASSERT_EQ(numbers.size(), next);
+    for (std::size_t n = size; n < next; ++n) numbers[n] = n;
+    size = next;
+    for (std::size_t n = 0; n < size; ++n) ASSERT_EQ(numbers[n], n);
+  }
+}
+
 TEST(PageVector, MovesItsRoom) {
   PageVector<float> one;
   one.resize_uninitialised(3 * kHugePage);
