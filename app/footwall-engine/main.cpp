@@ -1,6 +1,6 @@
-// The MPI program: runs one batch job or scripted workload, or makes one attribute volume, on all ranks, or
-// checks that they work together. Exit 0 done, 1 failed, 2 wrong usage, 75 told to make room (SIGTERM; run it
-// again and it goes on), 130 cancelled; a failure is printed once.
+// The MPI program: runs one batch job or scripted workload, or makes one attribute volume or isosurface, on
+// all ranks, or checks that they work together. Exit 0 done, 1 failed, 2 wrong usage, 75 told to make room
+// (SIGTERM; run it again and it goes on), 130 cancelled; a failure is printed once.
 #include <signal.h>
 #include <sys/prctl.h>
 
@@ -8,6 +8,7 @@
 
 #include "app/footwall-engine/batch_command.h"
 #include "app/footwall-engine/check_command.h"
+#include "app/footwall-engine/isosurface_command.h"
 #include "app/footwall-engine/running_job.h"
 #include "app/footwall-engine/workload_command.h"
 #include "engine/comm/environment.h"
@@ -61,6 +62,7 @@ int run(const Communicator& world, int argc, char** argv) {
   CLI::App* attribute =
       app.add_subcommand("attribute", "makes an attribute volume; footwall attribute starts it");
   attribute->add_option("JOB", job, "what to make, JSON")->required();
+  footwall::app::IsosurfaceCommand isosurface(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -74,6 +76,8 @@ int run(const Communicator& world, int argc, char** argv) {
     workload.run(world);
   } else if (attribute->parsed()) {
     footwall::session::run_attribute(world, job, footwall::app::running_job(world));
+  } else if (isosurface.parsed()) {
+    isosurface.run(world);
   } else {
     footwall::app::batch(world, job, options);
   }

@@ -17,6 +17,7 @@ void add_interpolate(console::Program& program);
 void add_triangulate(console::Program& program);
 void add_extract(console::Program& program);
 void add_faces(console::Program& program);
+void add_isosurface(console::Program& program);
 void add_export(console::Program& program);
 void add_render(console::Program& program);
 void add_pack(console::Program& program);

@@ -1,0 +1,43 @@
+// From active cells to triangles: counted in one pass, written in another.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/isosurface/detail/case_lookup.h"
+#include "engine/isosurface/detail/plane_masks.h"
+#include "engine/isosurface/surface.h"
+
+namespace footwall::isosurface::detail {
+
+// A cell for which the signs are not enough, or with a centre vertex; in the order of the cells.
+struct SlowCell {
+  std::uint32_t r = 0;
+  std::uint32_t k = 0;
+  Alternative alternative = 0;
+  bool has_centre = false;
+};
+
+// A centre vertex and the vertices it is the mean of.
+struct CentreLoop {
+  std::uint32_t vertex = 0;
+  std::uint32_t count = 0;
+  std::array<std::uint32_t, 12> around{};
+};
+
+// Of the cells of plane p; slow cells are added.
+std::uint64_t count_triangles(const Frame& frame, const BitPlanes& planes, const CaseLookup& cases,
+                              std::int64_t p, const ActiveCells& here, std::vector<SlowCell>& slow);
+
+// Sets counts[].centres of the plane that the cells belong to.
+void count_centres(std::span<const SlowCell> slow, PlaneMasks& into);
+
+// Writes the triangles of the cells of plane here.p, number `first` and on, into `into`, which has exactly
+// room for them, and the first of each row, from cell row 0 on, into row_first. `next`: the plane after it.
+// The loops of centres are added.
+void write_triangles(const Frame& frame, const BitPlanes& planes, const CaseLookup& cases,
+                     const PlaneMasks& here, const PlaneMasks& next, std::span<const SlowCell> slow,
+                     std::uint64_t first, std::span<Triangle> into, std::uint64_t* row_first,
+                     std::vector<CentreLoop>& centres);
+
+}  // namespace footwall::isosurface::detail

@@ -1,0 +1,65 @@
+#include "engine/session/isosurface_job.h"
+
+#include <nlohmann/json.hpp>
+
+#include "storage/base/error.h"
+#include "storage/base/partial_file.h"
+
+namespace footwall::session {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kJobLimit = std::size_t{1} << 20;
+
+}  // namespace
+
+void write_isosurface_job(const IsosurfaceJob& job, const std::filesystem::path& path) {
+  const Json json{{"footwall_isosurface", 1},
+                  {"volume", job.volume.string()},
+                  {"value", job.value},
+                  {"pillars", job.pillars ? isosurface::text_of(*job.pillars) : "auto"},
+                  {"coordinates", job.world ? "world" : "index"},
+                  {"cap", job.cap},
+                  {"largest", job.largest},
+                  {"min_area", job.min_area},
+                  {"velocity", job.velocity ? Json(*job.velocity) : Json()},
+                  {"output", job.output.string()},
+                  {"result", job.result.string()}};
+  std::string text;
+  try {
+    text = json.dump(1) + "\n";
+  } catch (const Json::exception&) {
+    throw Error(ErrorCode::kUnsupported,
+                "the engine cannot be told the paths " + job.volume.string() + " and " + job.output.string() +
+                    ": they are not both UTF-8",
+                "rename them");
+  }
+  write_whole_file(path, text);
+}
+
+IsosurfaceJob read_isosurface_job(const std::filesystem::path& path) {
+  const Json json = Json::parse(read_whole_file(path, kJobLimit), nullptr, false);
+  const Error odd(ErrorCode::kFormat, path.string() + " is no isosurface job of this version",
+                  "use footwall isosurface");
+  try {
+    if (json.at("footwall_isosurface") != 1) throw odd;
+    IsosurfaceJob job;
+    job.volume = json.at("volume").get<std::string>();
+    job.value = json.at("value").get<float>();
+    const auto pillars = json.at("pillars").get<std::string>();
+    if (pillars != "auto") job.pillars = isosurface::parse_interleaving(pillars);
+    job.world = json.at("coordinates") == "world";
+    job.cap = json.at("cap").get<bool>();
+    job.largest = json.at("largest").get<std::uint64_t>();
+    job.min_area = json.at("min_area").get<double>();
+    if (!json.at("velocity").is_null()) job.velocity = json.at("velocity").get<double>();
+    job.output = json.at("output").get<std::string>();
+    job.result = json.at("result").get<std::string>();
+    return job;
+  } catch (const Json::exception&) {
+    throw odd;
+  }
+}
+
+}  // namespace footwall::session

@@ -1,0 +1,118 @@
+#include "engine/tasks/isosurface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/session/isosurface_job.h"
+#include "engine/session/private_folder.h"
+#include "engine/tasks/job_home.h"
+#include "engine/tasks/open_volume.h"
+#include "engine/tasks/write_surface.h"
+#include "storage/base/partial_file.h"
+#include "storage/surface/surface_file.h"
+
+namespace footwall::tasks {
+namespace {
+
+bool is_hdf5(const std::filesystem::path& path) {
+  std::string suffix = path.extension().string();
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return suffix == ".h5";
+}
+
+void check(const IsosurfaceOptions& options) {
+  constexpr double kMost = std::numeric_limits<float>::max();
+  if (!(std::abs(options.value) <= kMost)) {
+    throw Error(ErrorCode::kUsage,
+                fmt::format("--value {} is no value that a sample can have", options.value),
+                "give a finite number");
+  }
+  if (!(options.min_area >= 0) || !std::isfinite(options.min_area))
+    throw Error(ErrorCode::kUsage, fmt::format("--min-area {} is no area", options.min_area),
+                "give 0 or more");
+  if (options.velocity && !(*options.velocity > 0 && std::isfinite(*options.velocity))) {
+    throw Error(ErrorCode::kUsage, fmt::format("--velocity {} is no velocity", *options.velocity),
+                "give a number above 0, in m/s");
+  }
+  if (options.out.empty() || is_hdf5(options.out)) return;
+  try {
+    surface_format_of(options.out);
+  } catch (const Error& error) {
+    throw Error(error.code(), error.message(), error.hint() + "; or .h5");
+  }
+}
+
+isosurface::Surface as_surface(const surface::StoredSurface& stored) {
+  isosurface::Surface surface;
+  const std::size_t vertices = stored.positions.size() / 3;
+  surface.positions.resize_uninitialised(vertices);
+  surface.normals.resize_uninitialised(vertices);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const auto position = [&](std::size_t axis) {
+      return static_cast<float>(stored.positions[3 * v + axis]);
+    };
+    surface.positions[v] = {position(0), position(1), position(2)};
+    surface.normals[v] = {stored.normals[3 * v], stored.normals[3 * v + 1], stored.normals[3 * v + 2]};
+  }
+  surface.triangles.resize_uninitialised(stored.triangles.size() / 3);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    surface.triangles[t] = {stored.triangles[3 * t], stored.triangles[3 * t + 1],
+                            stored.triangles[3 * t + 2]};
+  return surface;
+}
+
+}  // namespace
+
+IsosurfaceMade make_isosurface(const project::Project& project, const IsosurfaceOptions& options,
+                               const JobContext& context) {
+  check(options);
+  if (!options.out.empty()) refuse_to_replace_storage(options.out);
+  const std::optional<survey::Geometry> survey = project.survey();
+  const project::VolumeRecord of = present_volume(project, options.volume);
+  require(survey.has_value(), "a project with a volume has a survey");
+  IsosurfaceMade made;
+  made.volume = of.name;
+  const auto value = static_cast<float>(options.value);
+  if (value < of.min || value > of.max) {
+    made.notices.push_back(
+        fmt::format("the values of volume '{}' run from {:g} to {:g}: no surface is at {:g}", of.name, of.min,
+                    of.max, options.value));
+  }
+  const bool direct = !options.out.empty() && is_hdf5(options.out);
+  const session::PrivateFolder folder(home_of_job(project));
+  session::IsosurfaceJob job;
+  job.volume = std::filesystem::absolute(project.volume_path(of));
+  if (!options.out.empty())
+    job.output = direct ? std::filesystem::absolute(options.out) : folder.path() / "surface.h5";
+  job.result = folder.path() / "result.json";
+  job.value = value;
+  job.pillars = options.pillars;
+  job.world = direct && options.world;
+  job.cap = options.cap;
+  job.largest = options.largest;
+  job.min_area = options.min_area;
+  job.velocity = options.velocity;
+  const std::filesystem::path job_file = folder.path() / "ISOSURFACE.json";
+  session::write_isosurface_job(job, job_file);
+  const bool converts = !options.out.empty() && !direct;
+  try {
+    made.result = session::run_engine(options.launch, {{"isosurface", job_file.string()}, job.result},
+                                      context.part(0, converts ? 0.8 : 1));
+  } catch (...) {
+    if (direct) remove_partial_files_of(job.output);  // of an engine that was killed
+    throw;
+  }
+  if (converts) {
+    const isosurface::Surface surface = as_surface(surface::read_surface(job.output));
+    write_surface(options.out, surface, fmt::format("{} {:g}", of.name, options.value), *survey,
+                  options.world ? SurfaceCoordinates::kWorld : SurfaceCoordinates::kIndex,
+                  context.part(0.8, 1));
+  }
+  return made;
+}
+
+}  // namespace footwall::tasks

@@ -1,0 +1,41 @@
+// An isosurface of a project's volume, extracted by the engine and written to a file.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/isosurface/parallel/pillars.h"
+#include "engine/session/launch.h"
+#include "storage/base/job_context.h"
+#include "storage/project/project.h"
+
+namespace footwall::tasks {
+
+struct IsosurfaceOptions {
+  std::string volume;  // empty: the first one
+  double value = 0;
+  std::optional<isosurface::Interleaving> pillars;  // none: chosen
+  bool world = true;                                // coordinates of the file; else index space
+  bool cap = false;
+  std::uint64_t largest = 0;       // components to keep; 0: all
+  double min_area = 0;             // of a component
+  std::optional<double> velocity;  // m/s
+  std::filesystem::path out;       // .h5, or a suffix of write_surface.h; empty: the surface is only measured
+  session::LaunchOptions launch;
+};
+
+struct IsosurfaceMade {
+  std::string volume;                // its name
+  std::string result;                // the engine's JSON (engine/session/isosurface_job.h)
+  std::vector<std::string> notices;  // what the user should know: a value that no sample comes near
+};
+
+// Throws kUsage (a value, an area or a suffix that cannot be), kNotFound (no such volume, naming those there
+// are, or its file is not there), and the engine's own errors. A failure or cancel leaves no part of a file,
+// and one that stood there before as it was.
+IsosurfaceMade make_isosurface(const project::Project& project, const IsosurfaceOptions& options,
+                               const JobContext& job);
+
+}  // namespace footwall::tasks
