@@ -40,7 +40,7 @@ Matrix4 Placement::then(const Matrix4& view_projection) const {
   return both;
 }
 
-Light::Light(const Placement& placement, const Camera& camera) {
+std::array<float, 9> normals_to_view(const Placement& placement, const Camera& camera) {
   // The inverse transpose is the cofactors over the determinant; of that only the sign matters to a
   // direction.
   const std::array<double, 9> c = cofactors(placement.linear);
@@ -56,7 +56,9 @@ Light::Light(const Placement& placement, const Camera& camera) {
     }
   }
   // Near 1, so that squares of normals fit in a float.
-  for (std::size_t n = 0; n < 9; ++n) to_view_[n] = static_cast<float>(m[n] / largest);
+  std::array<float, 9> to_view{};
+  for (std::size_t n = 0; n < 9; ++n) to_view[n] = static_cast<float>(m[n] / largest);
+  return to_view;
 }
 
 void check(const LitSurface& surface) {

@@ -46,33 +46,8 @@ struct LitSurface {
   std::span<const IdRun> runs;
 };
 
-// How a surface of one colour is lit as the camera sees it.
-class Light {
- public:
-  Light(const Placement& placement, const Camera& camera);
-  // The share of a colour's brightness at a vertex with this normal; front: of the side that normals point
-  // to.
-  float at(const Vec3f& normal, bool front) const {
-    const float x = to_view_[0] * normal.x + to_view_[1] * normal.y + to_view_[2] * normal.z;
-    const float y = to_view_[3] * normal.x + to_view_[4] * normal.y + to_view_[5] * normal.z;
-    const float z = to_view_[6] * normal.x + to_view_[7] * normal.y + to_view_[8] * normal.z;
-    const float size = std::sqrt(x * x + y * y + z * z);
-    const float inverse = size > 0 ? (front ? 1.0F : -1.0F) / size : 0.0F;
-    const float facing = std::max(0.0F, z * inverse);
-    const float lamp = std::max(0.0F, (x * kLamp[0] + y * kLamp[1] + z * kLamp[2]) * inverse);
-    return (kAmbient + kHeadlight * facing + kLampShare * lamp) * (front ? 1.0F : kBackSide);
-  }
-
- private:
-  static constexpr float kAmbient = 0.26F;
-  static constexpr float kHeadlight = 0.56F;
-  static constexpr float kLampShare = 0.34F;
-  static constexpr float kBackSide = 0.80F;
-  // Towards the lamp, of length 1: left, up, towards the eye.
-  static constexpr std::array<float, 3> kLamp{-0.60F, 0.64F, 0.48F};
-
-  std::array<float, 9> to_view_{};  // normals to right, up, towards the eye; any length
-};
+// From normals in a surface's frame to right, up and towards the eye, row major; of any length.
+std::array<float, 9> normals_to_view(const Placement& placement, const Camera& camera);
 
 // Throws Error kInvalid where sizes do not fit, a triangle refers to a vertex that is not there, runs are out
 // of order, or a placement is singular or not finite.

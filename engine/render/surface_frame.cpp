@@ -80,8 +80,6 @@ void SurfaceFrame::project(std::span<const LitSurface> surfaces, const Camera& c
   surfaces_.assign(surfaces.begin(), surfaces.end());
   width_ = width;
   height_ = height;
-  lights_.clear();
-  for (const LitSurface& surface : surfaces_) lights_.emplace_back(surface.placement, camera);
   if (projected_.size() < surfaces_.size()) projected_.resize(surfaces_.size());
   for (std::size_t n = 0; n < surfaces_.size(); ++n) {
     const std::span<const Vec3f> positions = surfaces_[n].positions;
@@ -92,6 +90,8 @@ void SurfaceFrame::project(std::span<const LitSurface> surfaces, const Camera& c
       to.room = positions.size();
     }
     to.to_clip = surfaces_[n].placement.then(camera.view_projection);
+    to.to_view = normals_to_view(surfaces_[n].placement, camera);
+    to.mirrors = surfaces_[n].placement.mirrors();
     const std::span<ScreenVertex> vertices(to.vertices.get(), positions.size());
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (std::size_t begin = 0; begin < positions.size(); begin += kVerticesAtOnce) {
@@ -160,63 +160,92 @@ void SurfaceFrame::shade(const VisibilityBuffer& window, std::span<Rgba> colours
 
 void SurfaceFrame::shade_rows(const VisibilityBuffer& window, int begin, int end,
                               std::span<Rgba> colours) const {
-  const auto width = static_cast<std::size_t>(window.width());
+  struct Seen {
+    std::uint32_t surface;
+    std::int32_t x;
+    std::size_t triangle;
+  };
+  // So many pixels ahead of the one that is worked on, its triangle is fetched; half as many, its vertices.
+  constexpr std::size_t kAhead = 24;
+  std::vector<Seen> seen;
+  LitPixels pixels;
+  std::array<Rgba, LitPixels::kRoom> lit{};
   for (int row = begin; row < end; ++row) {
-    const std::size_t first = static_cast<std::size_t>(row) * width;
-    for (std::size_t x = 0; x < width; ++x) {
-      const PrimitiveId id = primitive_of(window.pixels()[first + x]);
-      if (id == kNoPrimitive) {
-        colours[first + x] = 0;
-        continue;
-      }
+    const int y = window.first_row() + row;
+    const std::span<const Visible> visibles = window.row(y);
+    const std::span<Rgba> to =
+        colours.subspan(static_cast<std::size_t>(row) * visibles.size(), visibles.size());
+    seen.clear();
+    for (std::size_t x = 0; x < visibles.size(); ++x) {
+      const PrimitiveId id = primitive_of(visibles[x]);
+      to[x] = 0;
+      if (id == kNoPrimitive) continue;
       const PrimitiveTable::Entry& entry = table_.entry_of(id);
-      colours[first + x] = colour_of(entry.surface, entry.first_triangle + (id - entry.first_id),
-                                     static_cast<int>(x), window.first_row() + row);
+      seen.push_back(
+          {entry.surface, static_cast<std::int32_t>(x), entry.first_triangle + (id - entry.first_id)});
     }
+    std::size_t first = 0;  // of the pixels that wait for light
+    const auto flush = [&](std::size_t next) {
+      const std::uint32_t surface = seen[first].surface;
+      light_pixels(projected_[surface].to_view, surfaces_[surface].colour, pixels, lit);
+      for (std::size_t n = first; n < next; ++n) to[static_cast<std::size_t>(seen[n].x)] = lit[n - first];
+      pixels.count = 0;
+      first = next;
+    };
+    for (std::size_t n = 0; n < seen.size(); ++n) {
+      if (n + kAhead < seen.size()) {
+        const Seen& later = seen[n + kAhead];
+        __builtin_prefetch(&surfaces_[later.surface].triangles[later.triangle]);
+      }
+      if (n + kAhead / 2 < seen.size()) {
+        const Seen& soon = seen[n + kAhead / 2];
+        const LitSurface& surface = surfaces_[soon.surface];
+        for (const std::int32_t v : surface.triangles[soon.triangle]) {
+          __builtin_prefetch(&surface.normals[static_cast<std::size_t>(v)]);
+          __builtin_prefetch(&projected_[soon.surface].vertices[static_cast<std::size_t>(v)]);
+        }
+      }
+      if (pixels.count > 0 && (pixels.count == LitPixels::kRoom || seen[n].surface != seen[first].surface))
+        flush(n);
+      add_pixel(seen[n].surface, seen[n].triangle, seen[n].x, y, pixels);
+    }
+    if (pixels.count > 0) flush(seen.size());
   }
 }
 
-Rgba SurfaceFrame::colour_of(std::size_t number, std::size_t triangle, int x, int y) const {
+void SurfaceFrame::add_pixel(std::size_t number, std::size_t triangle, int x, int y, LitPixels& to) const {
   const LitSurface& surface = surfaces_[number];
+  const Projected& projected = projected_[number];
   const TriangleIndices& corners = surface.triangles[triangle];
-  const std::span<const ScreenVertex> vertices = vertices_of(number);
-  const auto vertex = [&](std::size_t n) { return vertices[static_cast<std::size_t>(corners[n])]; };
+  const auto vertex = [&](std::size_t n) { return projected.vertices[static_cast<std::size_t>(corners[n])]; };
   const ScreenVertex a = vertex(0);
   const ScreenVertex b = vertex(1);
   const ScreenVertex c = vertex(2);
-  float wa = 0;
-  float wb = 0;
-  float wc = 0;
+  std::array<float, 3> weights{};
   if ((a.outside | b.outside | c.outside) == 0) {
     const std::array<std::int64_t, 3> w = weights_at(a, b, c, x, y);
-    wa = static_cast<float>(w[0]);
-    wb = static_cast<float>(w[1]);
-    wc = static_cast<float>(w[2]);
+    for (std::size_t n = 0; n < 3; ++n) weights[n] = static_cast<float>(w[n]);
   } else {
     const auto clip = [&](std::size_t n) {
-      return transformed(projected_[number].to_clip,
-                         Vec3(surface.positions[static_cast<std::size_t>(corners[n])]));
+      return transformed(projected.to_clip, Vec3(surface.positions[static_cast<std::size_t>(corners[n])]));
     };
     const std::array<double, 3> w =
         weights_at(clip(0), clip(1), clip(2), 2 * (x + 0.5) / width_ - 1, 1 - 2 * (y + 0.5) / height_);
     // In clip space y points up: the winding is the other one.
     const double scale = -std::max({std::abs(w[0]), std::abs(w[1]), std::abs(w[2])});
-    wa = static_cast<float>(w[0] / scale);
-    wb = static_cast<float>(w[1] / scale);
-    wc = static_cast<float>(w[2] / scale);
+    for (std::size_t n = 0; n < 3; ++n) weights[n] = static_cast<float>(w[n] / scale);
   }
-  const float sum = wa + wb + wc;
   // Rows of the picture count downwards: counter-clockwise as seen is a negative sum.
-  const bool front = (sum < 0) != surface.placement.mirrors();
-  const Light& light = lights_[number];
-  const auto lit = [&](std::size_t n) {
-    return light.at(surface.normals[static_cast<std::size_t>(corners[n])], front);
-  };
-  const float brightness = (wa * lit(0) + wb * lit(1) + wc * lit(2)) / sum;
-  const auto channel = [&](unsigned value) {
-    return static_cast<unsigned>(std::clamp(static_cast<float>(value) * brightness + 0.5F, 0.0F, 255.0F));
-  };
-  return rgb(channel(red(surface.colour)), channel(green(surface.colour)), channel(blue(surface.colour)));
+  const bool is_front = (weights[0] + weights[1] + weights[2] < 0) != projected.mirrors;
+  const std::size_t at = to.count++;
+  to.side[at] = is_front ? 1.0F : -1.0F;
+  for (std::size_t n = 0; n < 3; ++n) {
+    const Vec3f& normal = surface.normals[static_cast<std::size_t>(corners[n])];
+    to.x[n][at] = normal.x;
+    to.y[n][at] = normal.y;
+    to.z[n][at] = normal.z;
+    to.weight[n][at] = weights[n];
+  }
 }
 
 }  // namespace footwall::render

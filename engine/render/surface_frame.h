@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/render/light_pixels.h"
 #include "engine/render/lit_surface.h"
 #include "engine/render/visibility.h"
 
@@ -56,15 +57,17 @@ class SurfaceFrame {
     std::unique_ptr<ScreenVertex[]> vertices;
     std::size_t room = 0;
     Matrix4 to_clip{};
+    std::array<float, 9> to_view{};  // normals_to_view()
+    bool mirrors = false;
   };
   std::span<const ScreenVertex> vertices_of(std::size_t surface) const {
     return {projected_[surface].vertices.get(), surfaces_[surface].positions.size()};
   }
   void shade_rows(const VisibilityBuffer& window, int begin, int end, std::span<Rgba> colours) const;
-  Rgba colour_of(std::size_t surface, std::size_t triangle, int x, int y) const;
+  // Adds pixel (x, y), which shows this triangle.
+  void add_pixel(std::size_t surface, std::size_t triangle, int x, int y, LitPixels& to) const;
 
   std::vector<LitSurface> surfaces_;
-  std::vector<Light> lights_;
   std::vector<Projected> projected_;
   PrimitiveTable table_;
   int width_ = 0;

@@ -2,6 +2,7 @@
 #include "app/footwall/commands/bench_balance.h"
 #include "app/footwall/commands/bench_extract.h"
 #include "app/footwall/commands/bench_quality.h"
+#include "app/footwall/commands/bench_render.h"
 #include "app/footwall/commands/commands.h"
 
 namespace footwall::commands {
@@ -11,6 +12,7 @@ void add_bench(console::Program& program) {
   add_bench_balance(program, group);
   add_bench_extract(program, group);
   add_bench_quality(program, group);
+  add_bench_render(program, group);
   add_bench_voxelize(program, group);
 }
 
