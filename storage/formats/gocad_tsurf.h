@@ -7,8 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "storage/base/job_context.h"
 #include "storage/formats/import_report.h"
 #include "storage/formats/mesh_table.h"
+#include "storage/formats/triangle_source.h"
 #include "storage/survey/surface.h"
 
 namespace footwall::formats::gocad_tsurf {
@@ -30,6 +32,11 @@ struct WriteOptions {
 // together with `strict`, kIo (a full disk leaves no file).
 std::vector<std::string> write(const std::filesystem::path& path, std::span<const MeshTable> meshes,
                                const WriteOptions& options = {});
+
+// One large surface as one TSurf object, ids from 1, coordinates with six decimals; normals have no place.
+// Throws kIo (a full disk leaves no file), kCancelled, what the source throws.
+void write_surface(const std::filesystem::path& path, const TriangleSource& source, const SurfaceFacts& facts,
+                   const JobContext& job = {});
 
 // One TSurf object of a file.
 struct Object {

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "engine/tasks/isosurface_ranks/ranks_run.h"
-#include "storage/base/random.h"
+#include "storage/base/splitmix64.h"
 
 namespace footwall::tasks {
 namespace {

@@ -28,14 +28,14 @@ class MeshCase : public testing::Test {
     return weld(world, pillars, options.normals, extraction.pieces);
   }
   // The whole mesh on rank 0, in the order of its numbers.
-  Surface gathered(MeshPart part) {
+  Surface gathered(MeshPart part, bool normals = true) {
     Surface whole;
     const Bounds vertices = all_on_first(part.all_vertices, world.size());
     const Bounds triangles = all_on_first(part.all_triangles, world.size());
     const auto own = [&](const auto& values) { return values.all().first(values.empty() ? 0 : part.own); };
     const Surface& mesh = part.mesh;
     whole.positions = collect<Point>(world, part.vertex_runs, own(mesh.positions), vertices);
-    whole.normals = collect<Point>(world, part.vertex_runs, own(mesh.normals), vertices);
+    if (normals) whole.normals = collect<Point>(world, part.vertex_runs, own(mesh.normals), vertices);
     whole.keys = collect<VertexKey>(world, part.vertex_runs, own(mesh.keys), vertices);
     for (Triangle& triangle : part.mesh.triangles.all())
       triangle = {part.numbers[triangle[0]], part.numbers[triangle[1]], part.numbers[triangle[2]]};

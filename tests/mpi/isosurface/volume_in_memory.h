@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/isosurface/parallel/extract_parallel.h"
-#include "storage/base/random.h"
+#include "storage/base/splitmix64.h"
 
 namespace footwall::isosurface {
 

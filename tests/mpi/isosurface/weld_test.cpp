@@ -36,7 +36,7 @@ TEST_F(Weld, RandomDecompositionsOfRandomVolumesGiveTheSame) {
     options.normals = below(3) != 0;
     options.block_cells = below(2) == 0 ? 500 : 1 << 20;
     const Pillars pillars(dims, world.size(), interleaving);
-    const Surface whole = gathered(welded(volume, pillars, options));
+    const Surface whole = gathered(welded(volume, pillars, options), options.normals);
     if (world.rank() != 0) continue;
     Surface expected = serial(volume);
     if (!options.normals) expected.normals.release();

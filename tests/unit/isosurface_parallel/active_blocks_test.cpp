@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "storage/base/random.h"
+#include "storage/base/splitmix64.h"
 
 namespace footwall::isosurface {
 namespace {

@@ -1,0 +1,9 @@
+// footwall bench isosurface
+#pragma once
+#include "app/footwall/console/program.h"
+
+namespace footwall::commands {
+
+void add_bench_isosurface(console::Program& program, CLI::App* group);
+
+}  // namespace footwall::commands
