@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "engine/isosurface/detail/threads.h"
@@ -97,8 +98,8 @@ class Extraction {
       PlaneContent& content = plane(p);
       content.vertices = find_edges(frame_, signs_, p, active.before(), active.here(), edges);
       content.triangles = count_triangles(frame_, signs_, cases_, p, active.here(), content.slow);
-      content.vertices += static_cast<std::uint64_t>(
-          std::count_if(content.slow.begin(), content.slow.end(), [](const SlowCell& c) { return c.has_centre; }));
+      content.vertices += static_cast<std::uint64_t>(std::count_if(
+          content.slow.begin(), content.slow.end(), [](const SlowCell& c) { return c.has_centre; }));
     }
   }
 
@@ -151,7 +152,8 @@ class Extraction {
                    options_.keys ? into_.keys.data() + first : nullptr);
   }
 
-  void write_triangle_plane(const PlaneMasks& here, const PlaneMasks& next, std::vector<CentreLoop>& centres) {
+  void write_triangle_plane(const PlaneMasks& here, const PlaneMasks& next,
+                            std::vector<CentreLoop>& centres) {
     const PlaneContent& content = plane(here.p);
     const std::uint64_t end = plane(here.p + 1).triangles;  // there is a plane of samples after any cells
     write_triangles(frame_, signs_, cases_, here, next, content.slow, content.triangles,

@@ -75,7 +75,8 @@ Surface canonical(const Surface& surface) {
   for (std::uint32_t n = 0; n < vertices; ++n) {
     const std::uint32_t from = order[n];
     if (n > 0 && surface.keys[from] == form.keys[n - 1]) {
-      throw Error(ErrorCode::kInvalid, fmt::format("two vertices of a surface have the key {}", form.keys[n - 1]));
+      throw Error(ErrorCode::kInvalid,
+                  fmt::format("two vertices of a surface have the key {}", form.keys[n - 1]));
     }
     number[from] = n;
     form.positions[n] = surface.positions[from];
@@ -121,8 +122,8 @@ std::optional<std::string> difference(const Surface& here, const Surface& there,
   }
   for (std::size_t n = 0; n < here.normals.size(); ++n) {
     if (!same_bits(here.normals[n], there.normals[n])) {
-      return fmt::format("the normal of vertex {}{} is {} here and {} there", n, place(n), words(here.normals[n]),
-                         words(there.normals[n]));
+      return fmt::format("the normal of vertex {}{} is {} here and {} there", n, place(n),
+                         words(here.normals[n]), words(there.normals[n]));
     }
   }
   const std::size_t triangles = std::min(here.triangles.size(), there.triangles.size());

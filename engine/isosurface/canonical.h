@@ -1,5 +1,6 @@
-// One form for surfaces that are alike but for the order of their parts: of parts of a volume welded together,
-// of other decompositions, of other algorithms. Bit for bit, so that "the same" is not a matter of tolerance.
+// One form for surfaces that are alike but for the order of their parts: of parts of a volume welded
+// together, of other decompositions, of other algorithms. Bit for bit, so that "the same" is not a matter of
+// tolerance.
 #pragma once
 #include <optional>
 #include <string>
@@ -8,9 +9,10 @@
 
 namespace footwall::isosurface {
 
-// Vertices ascend by key, each triangle starts with its smallest vertex (the winding stays), triangles ascend.
-// Normals are there if the surface has them; `cells` are kept, row_first is left empty, since triangles no
-// longer stand by their cells. Throws Error kInvalid for a surface without keys or with one key twice.
+// Vertices ascend by key, each triangle starts with its smallest vertex (the winding stays), triangles
+// ascend. Normals are there if the surface has them; `cells` are kept, row_first is left empty, since
+// triangles no longer stand by their cells. Throws Error kInvalid for a surface without keys or with one key
+// twice.
 Surface canonical(const Surface& surface);
 
 // The first difference between two surfaces as they stand, in words with the numbers of both ("vertex 17 on

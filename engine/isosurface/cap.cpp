@@ -26,8 +26,7 @@ class Cap {
       const VertexKey key = surface.keys[n];
       const KeyPlace place = place_of(key, field.volume_size);
       for (int axis = 0; axis < 3; ++axis) {
-        const bool border =
-            place.sample[axis] == 0 || place.sample[axis] == field.volume_size[axis] - 1;
+        const bool border = place.sample[axis] == 0 || place.sample[axis] == field.volume_size[axis] - 1;
         if (axis != place.axis && place.axis != 3 && border) numbers_[key] = n;
       }
     }
@@ -145,10 +144,11 @@ class Cap {
     const auto [found, is_new] = numbers_.try_emplace(key, static_cast<std::uint32_t>(next));
     if (!is_new) return found->second;
     if (next >= std::numeric_limits<std::uint32_t>::max()) {
-      throw Error(ErrorCode::kUnsupported, "the capped surface has 2^32 vertices or more", "extract it in parts");
+      throw Error(ErrorCode::kUnsupported, "the capped surface has 2^32 vertices or more",
+                  "extract it in parts");
     }
-    positions_.push_back({static_cast<float>(sample[0]), static_cast<float>(sample[1]),
-                          static_cast<float>(sample[2])});
+    positions_.push_back(
+        {static_cast<float>(sample[0]), static_cast<float>(sample[1]), static_cast<float>(sample[2])});
     keys_.push_back(key);
     std::array<float, 3> out{0, 0, 0};
     float faces = 0;

@@ -167,7 +167,8 @@ Surface keep(const Surface& surface, const Components& components, std::span<con
   std::uint64_t next = 0;
   std::size_t row = 0;
   for (std::uint64_t n = 0; n <= surface.triangles.size(); ++n) {
-    for (; row < surface.row_first.size() && surface.row_first[row] == n; ++row) part.row_first.push_back(next);
+    for (; row < surface.row_first.size() && surface.row_first[row] == n; ++row)
+      part.row_first.push_back(next);
     if (n == surface.triangles.size()) break;
     const Triangle& t = surface.triangles[n];
     if (number[t[0]] != kGone) part.triangles[next++] = {number[t[0]], number[t[1]], number[t[2]]};

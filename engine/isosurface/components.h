@@ -27,8 +27,9 @@ struct ComponentTally {
   std::uint64_t non_manifold_edges = 0;  // with three or more, or with two that run the same way
   ExactSum area;                         // see Measure
   ExactSum volume;
-  Point lo{0, 0, 0}, hi{0, 0, 0};  // bounding box of the vertices, index space; of nothing where vertices is 0
-  VertexKey first = 0;             // the smallest key, or the first vertex's number where there are no keys
+  Point lo{0, 0, 0},
+      hi{0, 0, 0};      // bounding box of the vertices, index space; of nothing where vertices is 0
+  VertexKey first = 0;  // the smallest key, or the first vertex's number where there are no keys
 
   bool closed() const { return boundary_edges == 0 && non_manifold_edges == 0; }
   std::int64_t euler() const {
@@ -49,8 +50,9 @@ struct ComponentFilter {
   double min_area = 0;        // in the measure's units; smaller ones go
   bool keeps_all() const { return largest == 0 && min_area <= 0; }
 };
-// One entry for each tally, not zero where it is kept. Of components of equal area the one with more triangles
-// is the larger, then the one whose `first` is smaller. Throws Error kUsage for an area below 0 or not finite.
+// One entry for each tally, not zero where it is kept. Of components of equal area the one with more
+// triangles is the larger, then the one whose `first` is smaller. Throws Error kUsage for an area below 0 or
+// not finite.
 std::vector<std::uint8_t> kept(std::span<const ComponentTally> tallies, const Measure& measure,
                                const ComponentFilter& filter);
 // The triangles and vertices of the kept components, in the surface's order, with what it has of normals and

@@ -57,7 +57,11 @@ class Cubes {
     std::size_t count = 0;
     for (int edge = 0; edge < kCentre; ++edge) {
       const int axis = edge / 4, low = edge & 1, high = edge >> 1 & 1;
-      const int di = axis == 0 ? 0 : low, dj = axis == 0 ? low : axis == 1 ? 0 : high, dk = axis == 2 ? 0 : high;
+      const int di = axis == 0 ? 0 : low,
+                dj = axis == 0   ? low
+                     : axis == 1 ? 0
+                                 : high,
+                dk = axis == 2 ? 0 : high;
       const int lower = di | dj << 1 | dk << 2, upper = lower | 1 << axis;
       if ((signs >> lower & 1) == (signs >> upper & 1)) continue;
       vertex[edge] = borrow_or_compute(axis, i + di, j + dj, k + dk, values[lower], values[upper]);

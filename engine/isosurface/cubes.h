@@ -8,9 +8,9 @@
 namespace footwall::isosurface {
 
 // For each cell: eight comparisons, the case's pattern, and each vertex either computed or borrowed from the
-// neighbour that already did. Vertices are found in the order of the cells and put into the order of Surface at
-// the end. One thread; options.threads is not used. Throws as extract(), and kUnsupported for options.bricks:
-// this variant reads every sample.
+// neighbour that already did. Vertices are found in the order of the cells and put into the order of Surface
+// at the end. One thread; options.threads is not used. Throws as extract(), and kUnsupported for
+// options.bricks: this variant reads every sample.
 void extract_cubes(const Field& field, float isovalue, const ExtractOptions& options, Surface& into);
 void extract_cubes(const Field& field, float isovalue, const ExtractOptions& options, const CaseRules& rules,
                    Surface& into);

@@ -20,9 +20,7 @@ struct Bounded {
   double value = 0;
   double error = 0;
 
-  static Bounded rounded(double value, double error) {
-    return {value, error + kRounding * std::abs(value)};
-  }
+  static Bounded rounded(double value, double error) { return {value, error + kRounding * std::abs(value)}; }
   friend Bounded operator+(const Bounded& a, const Bounded& b) {
     return rounded(a.value + b.value, a.error + b.error);
   }
@@ -70,7 +68,9 @@ class Corners {
   std::optional<std::array<WideInteger, 8>> exact_;
 };
 
-constexpr bool is_above(unsigned signs, int corner) { return (signs >> corner & 1U) != 0; }
+constexpr bool is_above(unsigned signs, int corner) {
+  return (signs >> corner & 1U) != 0;
+}
 
 unsigned joined_faces(unsigned signs, Corners& corners) {
   unsigned joined = 0;
@@ -145,10 +145,9 @@ class Passage {
       return high(v) * a * a - mixed(v) * a * b + low(v) * b * b;
     });
     if (!is_parted(crossing)) return false;
-    const int side = corners_.sign([&](const auto& v) {
-      return (high(v) + high(v)) * v[line] - mixed(v) * v[line | 4];
-    });
-    return above ? side < 0 : side > 0;
+    const int side =
+        corners_.sign([&](const auto& v) { return (high(v) + high(v)) * v[line] - mixed(v) * v[line | 4]; });
+    return above ? side < 0 : side >= 0;  // 0: a value at the isovalue, which counts as just above
   }
 
   unsigned signs_;

@@ -23,8 +23,8 @@ void for_each_edge(const Surface& surface, Visit&& visit);
 
 namespace detail {
 
-// The upper end of each edge that starts at vertex a lies in ends[first[a]] .. ends[first[a + 1]]; bit 0 tells
-// whether the triangle runs downwards. Sorted for each a.
+// The upper end of each edge that starts at vertex a lies in ends[first[a]] .. ends[first[a + 1]]; bit 0
+// tells whether the triangle runs downwards. Sorted for each a.
 struct EdgeEnds {
   std::vector<std::uint64_t> first;
   std::vector<std::uint64_t> ends;  // 2 * b + down

@@ -69,10 +69,10 @@ std::vector<KeyTriangle> triangles_by_cell(const Field& field, float isovalue, c
         unsigned signs = 0;
         bool has_null = false;
         for (unsigned c = 0; c < 8; ++c) {
-          const std::int64_t at = ((i - field.origin[0] + (c & 1U)) * field.size[1] + j - field.origin[1] +
-                                   (c >> 1 & 1U)) *
-                                      field.size[2] +
-                                  k - field.origin[2] + (c >> 2);
+          const std::int64_t at =
+              ((i - field.origin[0] + (c & 1U)) * field.size[1] + j - field.origin[1] + (c >> 1 & 1U)) *
+                  field.size[2] +
+              k - field.origin[2] + (c >> 2);
           values[c] = field.values[static_cast<std::size_t>(at)];
           has_null = has_null || std::isnan(values[c]);
           signs |= values[c] >= isovalue ? 1U << c : 0U;

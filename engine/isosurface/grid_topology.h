@@ -1,5 +1,5 @@
-// The surface of a small field cell by cell, as places of the lattice without positions, and what form it has.
-// Slow and plain: it shares nothing with the extraction but the rules of the cells.
+// The surface of a small field cell by cell, as places of the lattice without positions, and what form it
+// has. Slow and plain: it shares nothing with the extraction but the rules of the cells.
 #pragma once
 #include <array>
 #include <cstdint>

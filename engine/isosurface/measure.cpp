@@ -9,8 +9,8 @@ namespace {
 
 using survey::Vector3;
 
-// Six times a volume is summed in multiples of 2^-35 of a voxel: a triangle within one cell has at most twice a
-// voxel's face, at most 2^25 from the origin, so that a multiple has fewer than 62 bits.
+// Six times a volume is summed in multiples of 2^-35 of a voxel: a triangle within one cell has at most twice
+// a voxel's face, at most 2^25 from the origin, so that a multiple has fewer than 62 bits.
 constexpr double kVolumeQuantum = 0x1p-35;
 // The same for areas, which are at most half the square of the cell's longest way.
 constexpr int kAreaBits = 60;

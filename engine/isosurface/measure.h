@@ -1,13 +1,13 @@
-// Areas and volumes of surfaces in the survey's measure, summed without rounding: each triangle's contribution
-// is computed in double and rounded to a multiple of a fixed power of two, and the multiples are added as
-// integers. Sums are therefore the same, bit for bit, in any order and for any partition.
+// Areas and volumes of surfaces in the survey's measure, summed without rounding: each triangle's
+// contribution is computed in double and rounded to a multiple of a fixed power of two, and the multiples are
+// added as integers. Sums are therefore the same, bit for bit, in any order and for any partition.
 #pragma once
 #include <array>
 #include <compare>
 #include <cstdint>
 
 #include "engine/isosurface/surface.h"
-#include "storage/survey/vector3.h"
+#include "storage/survey/vector.h"
 
 namespace footwall::isosurface {
 
@@ -26,9 +26,9 @@ struct ExactSum {
 
 class Measure {
  public:
-  // What one step of the index along inlines, crosslines and samples is in the world, in any unit, the same on
-  // all three: the three spacings on the diagonal, or the columns of a map that shears or turns. Throws Error
-  // kInvalid for steps that are not finite or lie in a plane.
+  // What one step of the index along inlines, crosslines and samples is in the world, in any unit, the same
+  // on all three: the three spacings on the diagonal, or the columns of a map that shears or turns. Throws
+  // Error kInvalid for steps that are not finite or lie in a plane.
   explicit Measure(const std::array<survey::Vector3, 3>& steps);
   // In voxels.
   Measure() : Measure(std::array<survey::Vector3, 3>{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}) {}
@@ -36,8 +36,8 @@ class Measure {
 
   // Of one triangle, in quanta. A triangle has its vertices within one cell of each other.
   std::int64_t area(const Point& a, const Point& b, const Point& c) const;
-  // The signed volume between the triangle and the origin, of which a closed surface's triangles sum up to the
-  // volume that it encloses: positive where the values inside are at or above the isovalue.
+  // The signed volume between the triangle and the origin, of which a closed surface's triangles sum up to
+  // the volume that it encloses: positive where the values inside are at or above the isovalue.
   static std::int64_t volume(const Point& a, const Point& b, const Point& c);
 
   // The sums in the steps' unit, squared and cubed.

@@ -24,8 +24,8 @@ struct Properties {
   std::uint64_t closed_components = 0;
   std::int64_t genus = 0;        // of the closed components together
   double area = 0;               // in the measure's unit, squared
-  std::optional<double> volume;  // enclosed, cubed; only where every component is closed. Of a body whose values
-                                 // are at or above the isovalue positive, of a hollow negative.
+  std::optional<double> volume;  // enclosed, cubed; only where every component is closed. Of a body whose
+                                 // values are at or above the isovalue positive, of a hollow negative.
   std::vector<ComponentTally> components;  // by the number of components_of()
 };
 

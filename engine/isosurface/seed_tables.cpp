@@ -9,13 +9,17 @@
 namespace footwall::isosurface {
 namespace {
 
-bool has_ambiguous_face(unsigned signs) { return tables::kAmbiguousFaces[signs] != 0; }
+bool has_ambiguous_face(unsigned signs) {
+  return tables::kAmbiguousFaces[signs] != 0;
+}
 
 const Pattern& fan_of(unsigned signs, Alternative alternative) {
   return tables::kFans[tables::kFanOf[tables::kFirst[signs] + alternative]];
 }
 
-float intersection(float a, float b, float isovalue) { return (isovalue - a) / (b - a); }
+float intersection(float a, float b, float isovalue) {
+  return (isovalue - a) / (b - a);
+}
 
 // By the intersections on the two edges of a face that run along u.
 Alternative decide_by_positions(unsigned signs, const std::array<float, 8>& values, float isovalue) {

@@ -1,9 +1,10 @@
 // The data-parallel formulation: every step is a loop over contiguous arrays without branches, whether a
 // surface passes or not, so that it runs on vector units.
-// Based on: seed 002, section 3 (interpolation on all edges, one array per axis; boolean volume; the index as a
-// vector expression; a table of 128 entries, the others by complementary symmetry, facets of variable length);
-// differs in that the arrays hold one plane of the volume at a time, so that they stay in the cache, in that
-// each entry has its face and interior alternatives, and in that the boolean is 1 at or above the isovalue.
+// Based on: seed 002, section 3 (interpolation on all edges, one array per axis; boolean volume; the index as
+// a vector expression; a table of 128 entries, the others by complementary symmetry, facets of variable
+// length); differs in that the arrays hold one plane of the volume at a time, so that they stay in the cache,
+// in that each entry has its face and interior alternatives, and in that the boolean is 1 at or above the
+// isovalue.
 #pragma once
 #include "engine/isosurface/case_tables.h"
 #include "engine/isosurface/extract.h"

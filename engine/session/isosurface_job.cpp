@@ -18,6 +18,7 @@ void write_isosurface_job(const IsosurfaceJob& job, const std::filesystem::path&
   const Json json{{"footwall_isosurface", 1},
                   {"volume", job.volume.string()},
                   {"value", job.value},
+                  {"variant", job.variant},
                   {"pillars", job.pillars ? isosurface::text_of(*job.pillars) : "auto"},
                   {"coordinates", job.world ? "world" : "index"},
                   {"cap", job.cap},
@@ -47,6 +48,7 @@ IsosurfaceJob read_isosurface_job(const std::filesystem::path& path) {
     IsosurfaceJob job;
     job.volume = json.at("volume").get<std::string>();
     job.value = json.at("value").get<float>();
+    job.variant = json.at("variant").get<std::string>();
     const auto pillars = json.at("pillars").get<std::string>();
     if (pillars != "auto") job.pillars = isosurface::parse_interleaving(pillars);
     job.world = json.at("coordinates") == "world";

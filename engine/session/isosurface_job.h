@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "engine/comm/communicator.h"
 #include "engine/isosurface/parallel/pillars.h"
@@ -12,13 +13,14 @@
 
 namespace footwall::session {
 
-// On disk as JSON: {footwall_isosurface: 1, volume, value, pillars ("4x2x1", "auto"), coordinates ("world",
-// "index"), cap, largest, min_area, velocity, output, result}.
+// On disk as JSON: {footwall_isosurface: 1, volume, value, variant, pillars ("4x2x1", "auto"), coordinates
+// ("world", "index"), cap, largest, min_area, velocity, output, result}.
 struct IsosurfaceJob {
   std::filesystem::path volume;  // absolute, like the others
   std::filesystem::path output;  // takes its name when it is whole; empty: the surface is only measured
   std::filesystem::path result;  // written last, see run_isosurface()
   float value = 0;
+  std::string variant = "bricks";                   // of engine/isosurface/registry.h
   std::optional<isosurface::Interleaving> pillars;  // none: chosen
   // Positions in the survey's X, Y and z (positive down), float64; else in its index space, float32.
   bool world = false;
@@ -33,10 +35,11 @@ void write_isosurface_job(const IsosurfaceJob& job, const std::filesystem::path&
 // Throws kNotFound, kFormat.
 IsosurfaceJob read_isosurface_job(const std::filesystem::path& path);
 
-// Collective; the same Error on every rank, and then no file: what reading volumes throws, kCancelled on any
+// Collective; the same Error on every rank, and then no file: what reading volumes throws, kUsage (no such
+// variant), kCancelled on any
 // rank, kMemory, kUnsupported for 2^32 vertices. The result is JSON: ranks, threads, pillars, vertices,
-// triangles, components, closed_components, genus, euler, area, enclosed_volume (null unless every component is
-// closed), unit ("m" or, in a time survey without velocity, "voxel"), boundary_edges{at_border, inside},
+// triangles, components, closed_components, genus, euler, area, enclosed_volume (null unless every component
+// is closed), unit ("m" or, in a time survey without velocity, "voxel"), boundary_edges{at_border, inside},
 // non_manifold_edges, redundant_intersections, overlap_samples, samples_read, bytes_read, load_imbalance,
 // busy_seconds{mean, max}, seconds{open, extract, weld, measure, write, total}.
 void run_isosurface(const comm::Communicator& parent, const std::filesystem::path& job_path,

@@ -10,6 +10,7 @@
 #include "engine/isosurface/parallel/mesh_properties.h"
 #include "engine/isosurface/parallel/stored_samples.h"
 #include "engine/isosurface/parallel/weld.h"
+#include "engine/isosurface/registry.h"
 #include "engine/session/isosurface_job.h"
 #include "storage/base/hash.h"
 #include "storage/base/partial_file.h"
@@ -131,6 +132,8 @@ void Run::extract() {
   });
   const auto pillars = isosurface::Pillars(samples_.info().dims, world_.size(), interleaving_);
   isosurface::ParallelOptions options;
+  options.kernel = world_.collectively([&] { return isosurface::variant_of(job_.variant).extract; });
+  options.kernel_skips = options.kernel == isosurface::variants().front().extract;
   options.keys = true;
   options.cap = job_.cap;
   options.threads = omp_get_max_threads();

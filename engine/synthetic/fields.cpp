@@ -28,8 +28,7 @@ std::vector<float> by_rows(std::int64_t size, Row&& row) {
 }
 
 SampledField sphere(std::int64_t size) {
-  // Off the samples, so that none is hit exactly.
-  const double centre = static_cast<double>(size - 1) / 2 + 0.137, radius = 0.4 * static_cast<double>(size);
+  const double centre = static_cast<double>(size - 1) / 2, radius = 0.4 * static_cast<double>(size);
   const auto square = [&](std::int64_t n) {
     const double distance = static_cast<double>(n) - centre;
     return distance * distance;
@@ -45,7 +44,7 @@ SampledField sphere(std::int64_t size) {
 }
 
 SampledField gyroid(std::int64_t size) {
-  constexpr double kPeriods = 8;
+  constexpr double kPeriods = 8.38;
   std::vector<float> sine(static_cast<std::size_t>(size)), cosine(sine.size());
   for (std::size_t n = 0; n < sine.size(); ++n) {
     const double turns = kPeriods * static_cast<double>(n) / static_cast<double>(size);
@@ -58,7 +57,7 @@ SampledField gyroid(std::int64_t size) {
                       row[k] = sine[k] * cosine[j] + sine[j] * cosine[i] + sine[i] * cosine[k];
                     }
                   }),
-          0.013F};
+          0};
 }
 
 // cos + i sin of each sample of an axis, times a factor.
@@ -82,8 +81,8 @@ SampledField envelope(std::int64_t size) {
     const double period = draws.between(8, 28), dip_i = draws.between(-1, 1) / kLongest,
                  dip_j = draws.between(-1, 1) / kLongest, turns = draws.between(0, 1),
                  amplitude = draws.between(0.5, 1.5);
-    waves.push_back({Phases(size, dip_i, 0, 1), Phases(size, dip_j, 0, 1),
-                     Phases(size, 1 / period, turns, amplitude)});
+    waves.push_back(
+        {Phases(size, dip_i, 0, 1), Phases(size, dip_j, 0, 1), Phases(size, 1 / period, turns, amplitude)});
   }
   SampledField field;
   field.values = by_rows(size, [&](std::int64_t i, std::int64_t j, float* row) {
@@ -128,7 +127,8 @@ SampledField make_field(std::string_view name, std::int64_t size) {
     if (kind.name == name) return kind.make(size);
     names += fmt::format("{}{}", names.empty() ? "" : ", ", kind.name);
   }
-  throw Error(ErrorCode::kUsage, fmt::format("there is no synthetic volume '{}'", name), "use one of: " + names);
+  throw Error(ErrorCode::kUsage, fmt::format("there is no synthetic volume '{}'", name),
+              "use one of: " + names);
 }
 
 }  // namespace footwall::synthetic

@@ -97,7 +97,8 @@ class Extraction {
     if (variant == "plane") with_rules_ = isosurface::extract_plane;
     if (variant == "vector") with_rules_ = isosurface::extract_vector;
     if (with_rules_ == nullptr) {
-      throw Error(ErrorCode::kUsage, fmt::format("the variant {} has no tables but the trilinear ones", variant),
+      throw Error(ErrorCode::kUsage,
+                  fmt::format("the variant {} has no tables but the trilinear ones", variant),
                   "give --variant cubes, plane or vector with --tables");
     }
   }
@@ -119,7 +120,8 @@ class Extraction {
 };
 
 // Cells that their signs leave open, and those of them that the rules decide otherwise than the field does.
-void count_other_cells(const Field& field, float value, const CaseRules& rules, BenchIsosurfaceResult& result) {
+void count_other_cells(const Field& field, float value, const CaseRules& rules,
+                       BenchIsosurfaceResult& result) {
   const CaseRules& right = isosurface::trilinear_rules();
   std::uint64_t undecided = 0, other = 0;
   const survey::Box cells = isosurface::cells_of(field);
@@ -157,9 +159,8 @@ void check_answer(const Extraction& extraction, const BenchIsosurfaceOptions& op
   Surface other;
   Extraction(result.checked_against, extraction.tables())(field, value, how, other);
   if (const auto found = isosurface::difference(surface, other, field.volume_size)) {
-    throw Error(ErrorCode::kInternal,
-                fmt::format("{} and {} give different surfaces: {}", options.variant, result.checked_against,
-                            *found));
+    throw Error(ErrorCode::kInternal, fmt::format("{} and {} give different surfaces: {}", options.variant,
+                                                  result.checked_against, *found));
   }
 }
 
@@ -187,8 +188,8 @@ BenchVolume load_bench_volume(const BenchIsosurfaceOptions& options, const JobCo
   job.report(0, "read");
   if (options.raw.empty()) {
     synthetic::SampledField made = synthetic::make_field(options.synthetic, options.size);
-    volume = {std::move(made.values), {options.size, options.size, options.size}, made.isovalue,
-              options.synthetic};
+    volume = {
+        std::move(made.values), {options.size, options.size, options.size}, made.isovalue, options.synthetic};
   } else {
     if (!options.value) throw Error(ErrorCode::kUsage, "no isovalue was given", "give --value V");
     volume.size = {options.dims[2], options.dims[1], options.dims[0]};
@@ -199,12 +200,13 @@ BenchVolume load_bench_volume(const BenchIsosurfaceOptions& options, const JobCo
   }
   if (options.value) volume.value = *options.value;
   if (!options.write_raw.empty()) {
-    formats::raw::write(options.write_raw, volume.size,
-                        [&](const survey::Box& box, std::span<float> into) {
-                          const std::int64_t plane = volume.size[1] * volume.size[2];
-                          std::copy_n(volume.values.begin() + box.lo[0] * plane, into.size(), into.begin());
-                        },
-                        1, job);
+    formats::raw::write(
+        options.write_raw, volume.size,
+        [&](const survey::Box& box, std::span<float> into) {
+          const std::int64_t plane = volume.size[1] * volume.size[2];
+          std::copy_n(volume.values.begin() + box.lo[0] * plane, into.size(), into.begin());
+        },
+        1, job);
   }
   return volume;
 }

@@ -17,11 +17,11 @@ struct BenchIsosurfaceOptions {
   std::filesystem::path raw;
   survey::Index dims{0, 0, 0};  // of the file, x, y, z: x fastest, which is our sample axis
   std::string synthetic;
-  std::int64_t size = 256;               // of the synthetic volume, on each axis
-  std::filesystem::path write_raw;       // where to write the volume, for other programs; empty: nowhere
-  std::optional<float> value;            // none: the synthetic volume's own
+  std::int64_t size = 256;          // of the synthetic volume, on each axis
+  std::filesystem::path write_raw;  // where to write the volume, for other programs; empty: nowhere
+  std::optional<float> value;       // none: the synthetic volume's own
   std::string variant = "bricks";
-  std::string tables = "trilinear";      // or "seed", "seed000", "seed002"
+  std::string tables = "trilinear";  // or "seed", "seed000", "seed002"
   int threads = 1;
   int repeats = 5;
   bool normals = true;
@@ -51,7 +51,7 @@ struct BenchIsosurfaceResult {
   double cpu_seconds = 0;  // processor time of all threads, mean of the fresh repeats
   double voxels_per_second = 0, triangles_per_second = 0;  // by the median
   double input_mib = 0;
-  double peak_mib = 0;  // the most memory held above what the input takes
+  double peak_mib = 0;                    // the most memory held above what the input takes
   std::optional<double> pyramid_seconds;  // to make the ranges of the bricks, once a volume
   std::optional<double> bricks_active;    // part of the bricks that the isovalue can cross
   isosurface::Properties properties;      // in voxels
@@ -60,8 +60,8 @@ struct BenchIsosurfaceResult {
   std::optional<std::uint64_t> undecided_cells, other_cells;
 };
 
-// Throws Error kUsage for options out of range, kInternal where the answer is wrong, what the volume's reading
-// throws, kCancelled.
+// Throws Error kUsage for options out of range, kInternal where the answer is wrong, what the volume's
+// reading throws, kCancelled.
 BenchIsosurfaceResult bench_isosurface(const BenchIsosurfaceOptions& options, const JobContext& job);
 
 // Isovalues from first to last: seed 002's figures 6 to 9.

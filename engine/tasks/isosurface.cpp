@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/isosurface/registry.h"
 #include "engine/session/isosurface_job.h"
 #include "engine/session/private_folder.h"
 #include "engine/tasks/job_home.h"
@@ -25,6 +26,7 @@ bool is_hdf5(const std::filesystem::path& path) {
 }
 
 void check(const IsosurfaceOptions& options) {
+  isosurface::variant_of(options.variant);
   constexpr double kMost = std::numeric_limits<float>::max();
   if (!(std::abs(options.value) <= kMost)) {
     throw Error(ErrorCode::kUsage,
@@ -90,6 +92,7 @@ IsosurfaceMade make_isosurface(const project::Project& project, const Isosurface
     job.output = direct ? std::filesystem::absolute(options.out) : folder.path() / "surface.h5";
   job.result = folder.path() / "result.json";
   job.value = value;
+  job.variant = options.variant;
   job.pillars = options.pillars;
   job.world = direct && options.world;
   job.cap = options.cap;

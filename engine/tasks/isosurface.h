@@ -16,6 +16,7 @@ namespace footwall::tasks {
 struct IsosurfaceOptions {
   std::string volume;  // empty: the first one
   double value = 0;
+  std::string variant = "bricks";                   // how to extract: of isosurface/registry.h
   std::optional<isosurface::Interleaving> pillars;  // none: chosen
   bool world = true;                                // coordinates of the file; else index space
   bool cap = false;

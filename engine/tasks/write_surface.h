@@ -9,7 +9,7 @@
 #include "storage/base/job_context.h"
 #include "storage/formats/triangle_source.h"
 #include "storage/survey/geometry.h"
-#include "storage/survey/vector3.h"
+#include "storage/survey/vector.h"
 
 namespace footwall::tasks {
 
@@ -25,8 +25,8 @@ SurfaceCoordinates surface_coordinates_from(std::string_view name);
 // From index space to the coordinates of a file.
 class SurfaceFrame {
  public:
-  // kWorld: X and Y as the survey has them, z in the survey's vertical unit: up, the depth or time negated, as
-  // viewers want it; but down, as the survey has it, in TSurf, whose header can say so. kIndex: inline,
+  // kWorld: X and Y as the survey has them, z in the survey's vertical unit: up, the depth or time negated,
+  // as viewers want it; but down, as the survey has it, in TSurf, whose header can say so. kIndex: inline,
   // crossline and sample index, z positive down. Throws Error kInvalid for a geometry whose map is singular.
   SurfaceFrame(const survey::Geometry& geometry, SurfaceCoordinates coordinates, SurfaceFormat format);
 
@@ -55,7 +55,8 @@ formats::TriangleSource source_of(const isosurface::Surface& surface, const Surf
 void write_surface(const std::filesystem::path& path, const formats::TriangleSource& source,
                    const formats::SurfaceFacts& facts, const JobContext& job = {});
 
-// A whole surface in one call; the format is the suffix's. Throws Error kUsage for another suffix, and as above.
+// A whole surface in one call; the format is the suffix's. Throws Error kUsage for another suffix, and as
+// above.
 void write_surface(const std::filesystem::path& path, const isosurface::Surface& surface, std::string name,
                    const survey::Geometry& geometry, SurfaceCoordinates coordinates,
                    const JobContext& job = {});

@@ -63,8 +63,8 @@ int planar_parts(const std::array<double, 4>& v) {
   return ambiguous && !face_joins_inside(v[0], v[1], v[2], v[3]) ? 2 : 1;
 }
 
-// The Euler number of the inside of a box. Where the field grows along an axis, the inside shrinks along it to
-// that side of the box without changing its form.
+// The Euler number of the inside of a box. Where the field grows along an axis, the inside shrinks along it
+// to that side of the box without changing its form.
 bool add_euler(const Corners& v, int depth, int& euler) {
   const int inside = count_inside(v);
   if (inside == 0) return true;
@@ -253,9 +253,7 @@ std::optional<LevelSet> trilinear_level_set(const Corners& values) {
 }
 
 std::optional<int> grid_euler_number(std::span<const double> values, int n) {
-  const auto at = [&](int x, int y, int z) {
-    return values[static_cast<std::size_t>(x + n * (y + n * z))];
-  };
+  const auto at = [&](int x, int y, int z) { return values[static_cast<std::size_t>(x + n * (y + n * z))]; };
   int volume = 0;
   int border = 0;
   // Every vertex, edge, face and cell of the grid, by its lower end and its extent; those that lie on the

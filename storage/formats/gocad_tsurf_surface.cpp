@@ -18,11 +18,12 @@ void write_surface(const std::filesystem::path& path, const TriangleSource& sour
       "AXIS_UNIT \"{0}\" \"{0}\" \"{1}\"\nZPOSITIVE {2}\nEND_ORIGINAL_COORDINATE_SYSTEM\nTFACE\n",
       facts.horizontal_unit, facts.vertical_unit, facts.z_positive == "up" ? "Elevation" : "Depth");
   std::uint64_t number = 0;
-  detail::in_parts<std::array<double, 3>>(
-      source.vertices, source.positions, [&](std::span<const std::array<double, 3>> part) {
-        job.check();
-        for (const auto& [x, y, z] : part) out.print("VRTX {} {:.6f} {:.6f} {:.6f}\n", ++number, x, y, z);
-      });
+  detail::in_parts<std::array<double, 3>>(source.vertices, source.positions,
+                                          [&](std::span<const std::array<double, 3>> part) {
+                                            job.check();
+                                            for (const auto& [x, y, z] : part)
+                                              out.print("VRTX {} {:.6f} {:.6f} {:.6f}\n", ++number, x, y, z);
+                                          });
   detail::in_parts<std::array<std::uint32_t, 3>>(
       source.triangles, source.corners, [&](std::span<const std::array<std::uint32_t, 3>> part) {
         job.check();

@@ -1,5 +1,5 @@
-// PLY out: binary, little-endian; positions as doubles, so that world coordinates keep their digits, normals as
-// floats, faces of three uint32.
+// PLY out: binary, little-endian; positions as doubles, so that world coordinates keep their digits, normals
+// as floats, faces of three uint32.
 #pragma once
 #include <filesystem>
 

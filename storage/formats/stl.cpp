@@ -1,5 +1,5 @@
-// Based on: the binary form of 3D Systems' StereoLithography Interface Specification, 1989: 80 bytes of text, the
-// number of facets, 50 bytes a facet.
+// Based on: the binary form of 3D Systems' StereoLithography Interface Specification, 1989: 80 bytes of text,
+// the number of facets, 50 bytes a facet.
 #include "storage/formats/stl.h"
 
 #include <fmt/format.h>
@@ -45,15 +45,13 @@ void write(const std::filesystem::path& path, const TriangleSource& source, cons
   }
   std::vector<Position> positions;
   positions.reserve(source.vertices);
-  detail::in_parts<std::array<double, 3>>(source.vertices, source.positions,
-                                          [&](std::span<const std::array<double, 3>> part) {
-                                            job.check();
-                                            for (const auto& p : part) {
-                                              positions.push_back({static_cast<float>(p[0]),
-                                                                   static_cast<float>(p[1]),
-                                                                   static_cast<float>(p[2])});
-                                            }
-                                          });
+  detail::in_parts<std::array<double, 3>>(
+      source.vertices, source.positions, [&](std::span<const std::array<double, 3>> part) {
+        job.check();
+        for (const auto& p : part) {
+          positions.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+        }
+      });
   detail::OutputFile out(path);
   // A text that begins with "solid" would be taken for the other form of STL.
   std::string text = fmt::format("Footwall {} ({}, {}, z {})", facts.name, facts.horizontal_unit,

@@ -20,8 +20,8 @@ class Header {
   // Announces an array whose bytes follow in the order of their announcement.
   void announce(std::string_view type, std::string_view name, std::string_view attributes,
                 std::uint64_t bytes) {
-    text += fmt::format("<DataArray type=\"{}\" Name=\"{}\" {}format=\"appended\" offset=\"{}\"/>\n", type, name,
-                        attributes, offset_);
+    text += fmt::format("<DataArray type=\"{}\" Name=\"{}\" {}format=\"appended\" offset=\"{}\"/>\n", type,
+                        name, attributes, offset_);
     offset_ += sizeof(std::uint64_t) + bytes;
   }
   std::string text;
@@ -36,15 +36,16 @@ void put_polygons(detail::OutputFile& out, const TriangleSource& source, const J
   detail::Records records;
   records.put(source.triangles * 3 * sizeof(Number));
   out.write(records.bytes());
-  detail::in_parts<std::array<std::uint32_t, 3>>(
-      source.triangles, source.corners, [&](std::span<const std::array<std::uint32_t, 3>> part) {
-        job.check();
-        records.clear();
-        for (const auto& triangle : part) {
-          for (const std::uint32_t vertex : triangle) records.put(static_cast<Number>(vertex));
-        }
-        out.write(records.bytes());
-      });
+  detail::in_parts<std::array<std::uint32_t, 3>>(source.triangles, source.corners,
+                                                 [&](std::span<const std::array<std::uint32_t, 3>> part) {
+                                                   job.check();
+                                                   records.clear();
+                                                   for (const auto& triangle : part) {
+                                                     for (const std::uint32_t vertex : triangle)
+                                                       records.put(static_cast<Number>(vertex));
+                                                   }
+                                                   out.write(records.bytes());
+                                                 });
   records.clear();
   records.put(source.triangles * sizeof(Number));
   out.write(records.bytes());
@@ -65,20 +66,23 @@ void write_surface(const std::filesystem::path& path, const TriangleSource& sour
                       points <= std::numeric_limits<std::int32_t>::max();
   const std::string_view number_type = narrow ? "Int32" : "Int64";
   const std::uint64_t number = narrow ? sizeof(std::int32_t) : sizeof(std::int64_t);
-  const std::array<std::pair<std::string_view, std::string>, 5> texts{{{"name", facts.name},
-                                                                      {"horizontal_unit", facts.horizontal_unit},
-                                                                      {"vertical_unit", facts.vertical_unit},
-                                                                      {"z_positive", facts.z_positive},
-                                                                      {"crs", facts.crs}}};
+  const std::array<std::pair<std::string_view, std::string>, 5> texts{
+      {{"name", facts.name},
+       {"horizontal_unit", facts.horizontal_unit},
+       {"vertical_unit", facts.vertical_unit},
+       {"z_positive", facts.z_positive},
+       {"crs", facts.crs}}};
   Header header;
   header.text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\">\n<PolyData>\n<FieldData>\n";
   for (const auto& [name, text] : texts) {
-    header.announce("String", name, "NumberOfTuples=\"1\" ", std::char_traits<char>::length(text.c_str()) + 1);
+    header.announce("String", name, "NumberOfTuples=\"1\" ",
+                    std::char_traits<char>::length(text.c_str()) + 1);
   }
   header.text += fmt::format(
-      "</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+      "</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" "
+      "NumberOfStrips=\"0\" "
       "NumberOfPolys=\"{}\">\n",
       points, faces);
   if (source.has_normals) {

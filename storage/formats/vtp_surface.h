@@ -7,8 +7,8 @@
 
 namespace footwall::formats::vtp {
 
-// Facts go into the field data, as in vtp.h. Numbers of vertices take 32 bits where they fit. Throws kIo (a full
-// disk leaves no file), kCancelled, what the source throws.
+// Facts go into the field data, as in vtp.h. Numbers of vertices take 32 bits where they fit. Throws kIo (a
+// full disk leaves no file), kCancelled, what the source throws.
 void write_surface(const std::filesystem::path& path, const TriangleSource& source, const SurfaceFacts& facts,
                    const JobContext& job = {});
 

@@ -5,6 +5,7 @@
 #include "app/footwall/commands/commands.h"
 #include "app/footwall/commands/launch_options.h"
 #include "app/footwall/commands/options.h"
+#include "engine/isosurface/registry.h"
 #include "engine/tasks/isosurface.h"
 #include "storage/base/log.h"
 
@@ -94,6 +95,11 @@ void add_isosurface(console::Program& program) {
       "--pillars", options->pillars,
       "Pillars of each rank along inlines x crosslines, and layers along samples, as 4x2x1; or auto "
       "(default): chosen from the min/max pyramid");
+  std::string names;
+  for (const isosurface::Variant& variant : isosurface::variants())
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", variant.name);
+  command->add_option("--variant", how.variant,
+                      "How to extract; each gives the same surface: " + names + " (default bricks)");
   options->engine.add_to(*command);
 }
 

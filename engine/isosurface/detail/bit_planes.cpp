@@ -138,7 +138,8 @@ void find_signs(const Frame& frame, const CellMasks& masks, int threads, BitPlan
   into.inside[rows * frame.words] = 0;
   into.known[rows * frame.words] = 0;
   for_each_in_parallel(frame.sample_planes, threads, [&](std::int64_t p, int) {
-    if ((p == frame.cell_planes || masks.plane_is_empty(p)) && (p == 0 || masks.plane_is_empty(p - 1))) return;
+    if ((p == frame.cell_planes || masks.plane_is_empty(p)) && (p == 0 || masks.plane_is_empty(p - 1)))
+      return;
     HWY_DYNAMIC_DISPATCH(scan_plane)(frame, masks, p, into);
   });
 }

@@ -7,8 +7,9 @@
 
 namespace footwall::isosurface::detail {
 
-// The vertices of a cell at hand, by lane: 0, 1 the i edges 0 and 1, 2, 3 the j edges 4 and 5, 4..7 the k edges
-// 8..11, then from lane 8 on those of the first four whose k is one more: edges 2, 3, 6, 7; lane 12 the centre.
+// The vertices of a cell at hand, by lane: 0, 1 the i edges 0 and 1, 2, 3 the j edges 4 and 5, 4..7 the k
+// edges 8..11, then from lane 8 on those of the first four whose k is one more: edges 2, 3, 6, 7; lane 12 the
+// centre.
 inline constexpr int kLanes = 16;
 inline constexpr std::array<std::uint8_t, 13> kLaneOfEdge = {0, 1, 8, 9, 2, 3, 10, 11, 4, 5, 6, 7, 12};
 

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "engine/isosurface/detail/arguments.h"
 #include "storage/base/error.h"
 
 namespace footwall::isosurface::detail {
@@ -22,7 +23,7 @@ void copy(const std::vector<Value>& from, PageVector<Value>& into) {
 
 Draft::Draft(const Field& from, float value, const ExtractOptions& options, std::string_view variant)
     : field(from), isovalue(value), normals(options.normals), hands_over_keys_(options.keys) {
-  check(field, isovalue, options);
+  check_arguments(field, isovalue, options);
   if (options.bricks != nullptr) {
     throw Error(ErrorCode::kUnsupported, fmt::format("the variant {} reads every sample", variant),
                 "leave the pyramid out, or take the variant bricks");

@@ -26,7 +26,8 @@ class Draft {
     return axis == 0 ? field.size[1] * field.size[2] : axis == 1 ? field.size[2] : 1;
   }
   // Twice the gradient, see vertex_arithmetic.h.
-  Point gradient_at(std::int64_t i, std::int64_t j, std::int64_t k) const { return twice_gradient(field, i, j, k);
+  Point gradient_at(std::int64_t i, std::int64_t j, std::int64_t k) const {
+    return twice_gradient(field, i, j, k);
   }
 
   // The vertex at t of the edge from (i, j, k) along `axis`; the normal is left out where none are asked for.

@@ -1,12 +1,12 @@
-// A look-up table of 128 entries; that of signs from 128 on is the entry of 255 - signs with its facets turned
-// over. An entry is a record of variable length,
+// A look-up table of 128 entries; that of signs from 128 on is the entry of 255 - signs with its facets
+// turned over. An entry is a record of variable length,
 //
 //   N  S1 .. SN  V1 .. VM
 //
-// with the number of facets, the number of vertices of each, and the vertices (edges 0..11, or kCentre) of all.
-// A facet of S vertices is the fan of S - 2 triangles from its first one.
-// Based on: seed 002, section 2.2.1; differs in that an entry has a record for each of its alternatives, and
-// that facets are fans of triangles in space, which need not be plane.
+// with the number of facets, the number of vertices of each, and the vertices (edges 0..11, or kCentre) of
+// all. A facet of S vertices is the fan of S - 2 triangles from its first one. Based on: seed 002,
+// section 2.2.1; differs in that an entry has a record for each of its alternatives, and that facets are fans
+// of triangles in space, which need not be plane.
 #pragma once
 #include <array>
 #include <cstdint>

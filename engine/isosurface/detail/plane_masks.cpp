@@ -32,7 +32,8 @@ HWY_INLINE std::uint64_t active_row(const std::uint64_t* const* rows, const std:
     const std::uint64_t every = a[w] & b[w] & c[w] & d[w];
     const std::uint64_t next_some = a[w + 1] | b[w + 1] | c[w + 1] | d[w + 1];
     const std::uint64_t next_every = a[w + 1] & b[w + 1] & c[w + 1] & d[w + 1];
-    const std::uint64_t active = (some | upper(some, next_some)) & ~(every & upper(every, next_every)) & mask[w];
+    const std::uint64_t active =
+        (some | upper(some, next_some)) & ~(every & upper(every, next_every)) & mask[w];
     into[w] = active;
     all |= active;
   }

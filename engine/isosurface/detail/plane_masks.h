@@ -35,7 +35,7 @@ struct PlaneMasks {
         counts(static_cast<std::size_t>(frame.sample_rows)) {}
 
   struct RowCounts {
-    bool any = false;                      // whether cells around have triangles: else nothing else is written
+    bool any = false;  // whether cells around have triangles: else nothing else is written
     std::array<std::uint32_t, 3> edges{};  // crossed, per axis
     std::uint32_t centres = 0;
     std::uint32_t first_centre = 0;  // number of the first centre vertex

@@ -1,11 +1,13 @@
 // Planes of constant inline, one after the other, two of which are remembered: what the variants `plane` and
-// `vector` have in common. They differ in how the samples of a plane are looked at, which a class Planes does:
+// `vector` have in common. They differ in how the samples of a plane are looked at, which a class Planes
+// does:
 //
 //   Planes(const Draft&, const PlaneShape&)
 //   void look_at(i)                   reads the samples of plane i; called for each plane once, ascending
 //   bool classify(i, signs, nulls)    of each cell between planes i and i + 1, by its first corner: the signs
 //                                     of its corners, and whether one of them is null; returns whether any is
-//   void intersect(i, crossing)       crossing[axis]: for each edge of plane i along `axis`, not zero where its
+//   void intersect(i, crossing)       crossing[axis]: for each edge of plane i along `axis`, not zero where
+//   its
 //                                     ends' signs differ (axis 0: edges to plane i + 1, if there is one)
 //   float t(axis, i, j, k)            where such an edge is crossed
 //   Point gradient(i, j, k)           of a sample of plane i or i + 1, twice
@@ -19,8 +21,8 @@
 #include <cstring>
 #include <vector>
 
-#include "engine/isosurface/detail/draft.h"
 #include "engine/isosurface/case_tables.h"
+#include "engine/isosurface/detail/draft.h"
 
 namespace footwall::isosurface::detail {
 
@@ -85,7 +87,8 @@ class Sweep {
 
   // Calls visit(k) where marks[at(j, k)] is not zero, eight samples at a glance.
   template <class Visit>
-  void for_each_mark(const std::vector<std::uint8_t>& marks, std::int64_t j, std::int64_t count, Visit&& visit) {
+  void for_each_mark(const std::vector<std::uint8_t>& marks, std::int64_t j, std::int64_t count,
+                     Visit&& visit) {
     const std::uint8_t* const row = marks.data() + shape_.at(j, shape_.first_k);
     for (std::int64_t n = 0; n < count; n += 8) {
       std::uint64_t eight = 0;
@@ -102,7 +105,10 @@ class Sweep {
   // Whether one of the four cells around an edge has no null sample.
   bool is_used(std::int64_t i, std::int64_t j, std::int64_t k, int axis, bool below, bool above) const {
     for (int n = 0; n < 4; ++n) {
-      const survey::Index cell{i - (axis == 0 ? 0 : n & 1), j - (axis == 0 ? n & 1 : axis == 1 ? 0 : n >> 1),
+      const survey::Index cell{i - (axis == 0 ? 0 : n & 1),
+                               j - (axis == 0   ? n & 1
+                                    : axis == 1 ? 0
+                                                : n >> 1),
                                k - (axis == 2 ? 0 : n >> 1)};
       if (cell[0] < i ? !below : !above) continue;
       if (cell[1] < draft_.cells.lo[1] || cell[1] >= draft_.cells.hi[1] || cell[2] < draft_.cells.lo[2] ||

@@ -28,8 +28,8 @@ struct TriangleWriter {
 };
 
 // Decides the cell; returns its triangles.
-std::uint64_t count_slow_cell(const Frame& frame, std::int64_t p, std::int64_t r, std::int64_t k, unsigned signs,
-                              std::vector<SlowCell>& slow);
+std::uint64_t count_slow_cell(const Frame& frame, std::int64_t p, std::int64_t r, std::int64_t k,
+                              unsigned signs, std::vector<SlowCell>& slow);
 void write_slow_cell(unsigned signs, const CellIds& ids, TriangleWriter& writer);
 
 }  // namespace footwall::isosurface::detail
@@ -93,7 +93,8 @@ std::uint64_t count_plane(const Frame& frame, const BitPlanes& planes, const Cas
         if (triangles != kSlow) {
           count += triangles;
         } else {
-          count += count_slow_cell(frame, p, r, static_cast<std::int64_t>(64 * w + k), cases.signs[bits], slow);
+          count +=
+              count_slow_cell(frame, p, r, static_cast<std::int64_t>(64 * w + k), cases.signs[bits], slow);
         }
       }
     }
@@ -109,9 +110,11 @@ class WordIds {
     const auto first = hn::Load(kHalf, firsts);
     firsts_ = hn::Combine(kNarrow, first, first);
   }
-  HWY_INLINE void write(unsigned k, const std::array<std::uint8_t, kLanes>& lanes, TriangleWriter& writer) const {
+  HWY_INLINE void write(unsigned k, const std::array<std::uint8_t, kLanes>& lanes,
+                        TriangleWriter& writer) const {
     const auto places = hn::PromoteTo(kNarrow, hn::Load(hn::Rebind<std::uint8_t, Narrow>(), lanes.data()));
-    const auto corners = hn::TableLookupLanes(at(k), hn::IndicesFromVec(kNarrow, hn::And(places, hn::Set(kNarrow, 15))));
+    const auto corners =
+        hn::TableLookupLanes(at(k), hn::IndicesFromVec(kNarrow, hn::And(places, hn::Set(kNarrow, 15))));
     const std::size_t count = 3 * std::size_t{lanes[kLanes - 1]};
     if (writer.end - writer.at >= kLanes) {
       hn::StoreU(corners, kNarrow, writer.at);  // what is too much is written over by the next cell
@@ -143,7 +146,8 @@ class WordIds {
 class WordIds {
  public:
   WordIds(const std::uint64_t* masks, const std::uint32_t* firsts) : masks_(masks), firsts_(firsts) {}
-  HWY_INLINE void write(unsigned k, const std::array<std::uint8_t, kLanes>& lanes, TriangleWriter& writer) const {
+  HWY_INLINE void write(unsigned k, const std::array<std::uint8_t, kLanes>& lanes,
+                        TriangleWriter& writer) const {
     CellIds ids;
     store(k, ids);
     const std::size_t count = 3 * std::size_t{lanes[kLanes - 1]};
@@ -224,8 +228,8 @@ HWY_EXPORT(write_plane);
 
 }  // namespace
 
-std::uint64_t count_slow_cell(const Frame& frame, std::int64_t p, std::int64_t r, std::int64_t k, unsigned signs,
-                              std::vector<SlowCell>& slow) {
+std::uint64_t count_slow_cell(const Frame& frame, std::int64_t p, std::int64_t r, std::int64_t k,
+                              unsigned signs, std::vector<SlowCell>& slow) {
   Alternative alternative = 0;
   if (is_undecided(signs)) {
     std::array<float, 8> values;
@@ -235,7 +239,8 @@ std::uint64_t count_slow_cell(const Frame& frame, std::int64_t p, std::int64_t r
     alternative = decide(signs, values, frame.isovalue);
   }
   const Pattern& pattern = pattern_of(signs, alternative);
-  slow.push_back({static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(k), alternative, pattern.has_centre});
+  slow.push_back(
+      {static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(k), alternative, pattern.has_centre});
   return pattern.triangles.size();
 }
 

@@ -6,8 +6,8 @@
 
 namespace footwall::isosurface::detail {
 
-// inside: 1 where the value is at or above the isovalue, nulls: 1 where it is null, else 0. Returns whether any
-// is null.
+// inside: 1 where the value is at or above the isovalue, nulls: 1 where it is null, else 0. Returns whether
+// any is null.
 bool to_booleans(const float* values, std::int64_t count, float isovalue, std::uint8_t* inside,
                  std::uint8_t* nulls);
 // t[n]: where between lower[n] and upper[n] the isovalue lies, see crossing(); of edges that are not crossed

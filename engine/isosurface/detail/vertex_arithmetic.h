@@ -1,5 +1,5 @@
-// The arithmetic of one vertex, in float32, as every scalar variant does it and every vectorized one must, bit
-// for bit: no contraction, no approximate reciprocals, sums from left to right.
+// The arithmetic of one vertex, in float32, as every scalar variant does it and every vectorized one must,
+// bit for bit: no contraction, no approximate reciprocals, sums from left to right.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -49,9 +49,9 @@ inline Point twice_gradient(const Field& field, std::int64_t i, std::int64_t j, 
 // The factor, a power of two, that brings the largest of three magnitudes near 1, so that its square neither
 // overflows nor vanishes; 0 where the largest is zero, infinite or no number.
 inline float scale_of(const Point& v) {
-  const std::uint32_t largest =
-      std::max({std::bit_cast<std::uint32_t>(v.i) & kMagnitude, std::bit_cast<std::uint32_t>(v.j) & kMagnitude,
-                std::bit_cast<std::uint32_t>(v.k) & kMagnitude});
+  const std::uint32_t largest = std::max({std::bit_cast<std::uint32_t>(v.i) & kMagnitude,
+                                          std::bit_cast<std::uint32_t>(v.j) & kMagnitude,
+                                          std::bit_cast<std::uint32_t>(v.k) & kMagnitude});
   if (largest == 0 || largest >= kInfinity) return 0;
   const auto exponent = static_cast<std::int32_t>(largest >> 23);
   return std::bit_cast<float>(static_cast<std::uint32_t>(std::max(253 - exponent, 1)) << 23);

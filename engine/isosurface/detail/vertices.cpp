@@ -77,12 +77,10 @@ HWY_INLINE Float slope(const float* HWY_RESTRICT base, Int offset, [[maybe_unuse
   } else {
     const auto is_last = hn::Eq(along.at, along.last);
     const auto is_first = hn::Eq(along.at, hn::Zero(kInts));
-    const auto above =
-        hn::GatherIndex(kFloats, base, hn::Add(offset, hn::IfThenZeroElse(is_last, step)));
-    const auto below =
-        hn::GatherIndex(kFloats, base, hn::Sub(offset, hn::IfThenZeroElse(is_first, step)));
-    const auto no_above = hn::Or(hn::RebindMask(kFloats, is_last), hn::Ne(above, above));
-    const auto no_below = hn::Or(hn::RebindMask(kFloats, is_first), hn::Ne(below, below));
+    const auto above = hn::GatherIndex(kFloats, base, hn::Add(offset, hn::IfThenZeroElse(is_last, step)));
+    const auto below = hn::GatherIndex(kFloats, base, hn::Sub(offset, hn::IfThenZeroElse(is_first, step)));
+    const auto no_above = hn::Or(hn::RebindMask(kFloats, is_last), hn::IsNaN(above));
+    const auto no_below = hn::Or(hn::RebindMask(kFloats, is_first), hn::IsNaN(below));
     const auto rise = hn::Sub(hn::IfThenElse(no_above, value, above), hn::IfThenElse(no_below, value, below));
     return hn::IfThenElse(hn::Xor(no_above, no_below), hn::Add(rise, rise), rise);
   }
@@ -114,7 +112,7 @@ class Plane {
     const Int k = hn::Sub(offset, hn::Mul(j, row_step_));
     const auto on_i = hn::Eq(axis, hn::Zero(kInts));
     const auto on_j = hn::Eq(axis, hn::Set(kInts, 1));
-    const auto on_k = hn::Ge(axis, hn::Set(kInts, 2));
+    const auto on_k = hn::Gt(axis, hn::Set(kInts, 1));
     const Int one = hn::Set(kInts, 1);
     const Int step = hn::IfThenElse(on_i, plane_step_, hn::IfThenElse(on_j, row_step_, one));
     const Int upper = hn::Add(offset, step);
@@ -153,9 +151,9 @@ class Plane {
     };
     // Neighbours that the field does not have must not even be read.
     const auto at_border =
-        hn::Or(hn::Or(hn::Or(hn::Eq(lower_i.at, hn::Zero(kInts)), hn::Ge(upper_i.at, last_i_)),
-                      hn::Or(hn::Eq(lower_j.at, hn::Zero(kInts)), hn::Ge(upper_j.at, last_j_))),
-               hn::Or(hn::Eq(lower_k.at, hn::Zero(kInts)), hn::Ge(upper_k.at, last_k_)));
+        hn::Or(hn::Or(hn::Or(hn::Eq(lower_i.at, hn::Zero(kInts)), hn::Eq(upper_i.at, last_i_)),
+                      hn::Or(hn::Eq(lower_j.at, hn::Zero(kInts)), hn::Eq(upper_j.at, last_j_))),
+               hn::Or(hn::Eq(lower_k.at, hn::Zero(kInts)), hn::Eq(upper_k.at, last_k_)));
     Vector g{a, a, a};
     Int magnitude = hn::Zero(kInts);
     const Int infinity = hn::Set(kInts, static_cast<std::int32_t>(kInfinity));
@@ -171,17 +169,15 @@ class Plane {
     }
 
     const auto none = hn::RebindMask(
-        kFloats, hn::Or(hn::Eq(magnitude, hn::Zero(kInts)), hn::Ge(magnitude, infinity)));
-    const Int exponent =
-        hn::Max(hn::Sub(hn::Set(kInts, 253), hn::ShiftRight<23>(magnitude)), one);
+        kFloats, hn::Or(hn::Eq(magnitude, hn::Zero(kInts)), hn::Gt(magnitude, hn::Sub(infinity, one))));
+    const Int exponent = hn::Max(hn::Sub(hn::Set(kInts, 253), hn::ShiftRight<23>(magnitude)), one);
     const Float scale = hn::BitCast(kFloats, hn::ShiftLeft<23>(exponent));
     const Float vi = hn::Mul(g.i, scale);
     const Float vj = hn::Mul(g.j, scale);
     const Float vk = hn::Mul(g.k, scale);
     const Float square = hn::Add(hn::Add(hn::Mul(vi, vi), hn::Mul(vj, vj)), hn::Mul(vk, vk));
     const Float inverse = hn::Div(hn::Set(kFloats, -1.0F), hn::Sqrt(square));
-    const Float along =
-        hn::IfThenElse(hn::Ge(a, isovalue_), hn::Set(kFloats, 1.0F), hn::Set(kFloats, -1.0F));
+    const Float along = hn::IfThenElse(hn::Ge(a, isovalue_), hn::Set(kFloats, 1.0F), hn::Set(kFloats, -1.0F));
     hn::StoreInterleaved3(hn::IfThenElse(none, hn::IfThenElseZero(float_i, along), hn::Mul(vi, inverse)),
                           hn::IfThenElse(none, hn::IfThenElseZero(float_j, along), hn::Mul(vj, inverse)),
                           hn::IfThenElse(none, hn::IfThenElseZero(float_k, along), hn::Mul(vk, inverse)),
@@ -189,7 +185,9 @@ class Plane {
   }
 
  private:
-  static HWY_INLINE Int narrowed(std::int64_t value) { return hn::Set(kInts, static_cast<std::int32_t>(value)); }
+  static HWY_INLINE Int narrowed(std::int64_t value) {
+    return hn::Set(kInts, static_cast<std::int32_t>(value));
+  }
   static HWY_INLINE Float real(std::int64_t value) {
     return hn::Set(kFloats, static_cast<float>(static_cast<std::int32_t>(value)));
   }
@@ -197,8 +195,9 @@ class Plane {
   // top.
   static HWY_INLINE Int largest(const Vector& g) {
     const Int magnitude = hn::Set(kInts, static_cast<std::int32_t>(kMagnitude));
-    return hn::Max(hn::Max(hn::And(hn::BitCast(kInts, g.i), magnitude), hn::And(hn::BitCast(kInts, g.j), magnitude)),
-                   hn::And(hn::BitCast(kInts, g.k), magnitude));
+    return hn::Max(
+        hn::Max(hn::And(hn::BitCast(kInts, g.i), magnitude), hn::And(hn::BitCast(kInts, g.j), magnitude)),
+        hn::And(hn::BitCast(kInts, g.k), magnitude));
   }
 
   const float* base_;
@@ -214,7 +213,8 @@ class Plane {
   Int origin_k_;
 };
 
-void write_plane(const Frame& frame, std::int64_t p, const VertexList& list, Point* positions, Point* normals) {
+void write_plane(const Frame& frame, std::int64_t p, const VertexList& list, Point* positions,
+                 Point* normals) {
   static_assert(sizeof(Point) == 3 * sizeof(float));
   const Plane plane(frame, p);
   auto* position = reinterpret_cast<float*>(positions);
@@ -253,7 +253,8 @@ HWY_EXPORT(write_plane);
 
 }  // namespace
 
-void list_vertices(const Frame& frame, const PlaneMasks& here, std::span<const SlowCell> slow, VertexList& into) {
+void list_vertices(const Frame& frame, const PlaneMasks& here, std::span<const SlowCell> slow,
+                   VertexList& into) {
   into.count = 0;
   for (std::int64_t r = here.from; r < here.to; ++r) {
     const PlaneMasks::RowCounts& counts = here.counts[static_cast<std::size_t>(r)];
@@ -266,15 +267,16 @@ void list_vertices(const Frame& frame, const PlaneMasks& here, std::span<const S
   HWY_DYNAMIC_DISPATCH(list_plane)(frame, here, slow.data(), slow.data() + slow.size(), into);
 }
 
-void write_vertices(const Frame& frame, std::int64_t p, const VertexList& list, Point* positions, Point* normals,
-                    VertexKey* keys) {
+void write_vertices(const Frame& frame, std::int64_t p, const VertexList& list, Point* positions,
+                    Point* normals, VertexKey* keys) {
   HWY_DYNAMIC_DISPATCH(write_plane)(frame, p, list, positions, normals);
   if (keys == nullptr) return;
   const Field& field = *frame.field;
   for (std::size_t n = 0; n < list.count; ++n) {
     const std::int64_t j = list.place[n] >> 2;
     const std::int64_t k = list.offset[n] - j * frame.row_step;
-    const std::int64_t row = (field.origin[0] + frame.cells.lo[0] + p) * field.volume_size[1] + field.origin[1] + j;
+    const std::int64_t row =
+        (field.origin[0] + frame.cells.lo[0] + p) * field.volume_size[1] + field.origin[1] + j;
     keys[n] = 4 * static_cast<VertexKey>(row * field.volume_size[2] + field.origin[2] + k) +
               static_cast<VertexKey>(list.place[n] & 3);
   }

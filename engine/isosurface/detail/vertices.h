@@ -17,11 +17,12 @@ struct VertexList {
 };
 
 // `slow`: the slow cells of the plane of cells here.p.
-void list_vertices(const Frame& frame, const PlaneMasks& here, std::span<const SlowCell> slow, VertexList& into);
+void list_vertices(const Frame& frame, const PlaneMasks& here, std::span<const SlowCell> slow,
+                   VertexList& into);
 
 // normals and keys may be null; else room for list.count each.
-void write_vertices(const Frame& frame, std::int64_t p, const VertexList& list, Point* positions, Point* normals,
-                    VertexKey* keys);
+void write_vertices(const Frame& frame, std::int64_t p, const VertexList& list, Point* positions,
+                    Point* normals, VertexKey* keys);
 
 // Each centre from the vertices around it, which must be made.
 void write_centres(std::span<const CentreLoop> centres, Point* positions, Point* normals);

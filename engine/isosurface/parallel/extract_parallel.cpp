@@ -66,7 +66,7 @@ void extract_block(const survey::Box& cells, const Pillars& pillars, const Field
   how.keys = options.keys;
   how.threads = options.threads;
   how.cells = cells;
-  how.bricks = options.bricks;
+  if (options.kernel_skips) how.bricks = options.bricks;
   options.kernel(field, isovalue, how, surface);
   if (options.cap) cap_block(field, pillars, cells, isovalue, surface);
   into.samples_read += samples.count();

@@ -28,6 +28,8 @@ struct ParallelOptions {
   bool cap = false;                // closes the surface at the volume's border (cap.h); needs keys
   int threads = 1;                 // of each rank
   const Bricks* bricks = nullptr;  // of the whole volume, or none: every cell is looked at
+  // Whether the kernel is told of them, too; kernels other than `extract` refuse that.
+  bool kernel_skips = true;
   std::int64_t block_cells = std::int64_t{1} << 24;  // that are read at once: 64 MiB
 };
 

@@ -29,7 +29,8 @@ SignCase case_of(unsigned signs) {
     all.fans[joined] = {fan(contours), static_cast<int>(contours.loops.size()), 0};
     for (const Tunnel& tunnel : tunnels(signs, joined, contours)) {
       const bool is_new =
-          all.entries.emplace(joined | kTunnelBits[tunnel.inside ? 1 : 0], made(signs, joined, contours, tunnel))
+          all.entries
+              .emplace(joined | kTunnelBits[tunnel.inside ? 1 : 0], made(signs, joined, contours, tunnel))
               .second;
       if (!is_new) throw std::runtime_error("two tunnels of one sign in signs " + std::to_string(signs));
     }

@@ -7,16 +7,22 @@ namespace footwall::isosurface::tables {
 
 inline constexpr int kCentreVertex = 12;
 
-constexpr int axis_of(int edge) { return edge / 4; }
+constexpr int axis_of(int edge) {
+  return edge / 4;
+}
 // The two axes other than `axis`, ascending.
-constexpr std::array<int, 2> others(int axis) { return {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2}; }
+constexpr std::array<int, 2> others(int axis) {
+  return {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2};
+}
 
 constexpr int lower_corner(int edge) {
   const std::array<int, 2> across = others(axis_of(edge));
   const int n = edge % 4;
   return (n & 1) << across[0] | (n >> 1) << across[1];
 }
-constexpr int upper_corner(int edge) { return lower_corner(edge) | 1 << axis_of(edge); }
+constexpr int upper_corner(int edge) {
+  return lower_corner(edge) | 1 << axis_of(edge);
+}
 
 // The edge between two neighbouring corners.
 constexpr int edge_between(int a, int b) {
@@ -44,15 +50,17 @@ constexpr std::array<int, 4> corners_of(int face) {
 }
 
 // A chord between two vertices on a common face of the cell (which is not a contour there): the six that four
-// vertices can have are dealt out between the two cells of the face, so that they never have the same one and no
-// edge has four triangles. The cell above gets those at the vertex that stands first on the face.
+// vertices can have are dealt out between the two cells of the face, so that they never have the same one and
+// no edge has four triangles. The cell above gets those at the vertex that stands first on the face.
 constexpr bool may_be_chord(int face, int a, int b) {
   const int base = (face & 1) << face / 2;
   const int first = edge_between(base, base | 1 << others(face / 2)[0]);
   return (a == first || b == first) == ((face & 1) == 0);
 }
 
-constexpr bool is_inside(unsigned signs, int corner) { return (signs >> corner & 1) != 0; }
+constexpr bool is_inside(unsigned signs, int corner) {
+  return (signs >> corner & 1) != 0;
+}
 
 constexpr bool is_cut(unsigned signs, int edge) {
   return is_inside(signs, lower_corner(edge)) != is_inside(signs, upper_corner(edge));

@@ -62,7 +62,8 @@ std::string face_fault(unsigned signs, bool joined, int face, const std::set<Dir
       for (const int corner : {lower_corner(edge), upper_corner(edge)}) {
         // On an ambiguous face only the corner between the two ends is surely on one side.
         if (cuts == 4 && corner != common_corner(a, b)) continue;
-        if (lies_right(face, a, b, corner) != is_inside(signs, corner)) return "a contour turned the wrong way";
+        if (lies_right(face, a, b, corner) != is_inside(signs, corner))
+          return "a contour turned the wrong way";
       }
     }
     if (cuts == 4) {

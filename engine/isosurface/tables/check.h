@@ -9,7 +9,8 @@ namespace footwall::isosurface::tables {
 // What is wrong with the entry of these signs and this alternative; empty if nothing is:
 // - on every face of the cell the contours part inside from outside corners, joined as the alternative says,
 //   with the inside to their right as seen from outside the cell;
-// - every other edge has two triangles, in opposite directions, and does not lie on a face of the cell, unless
+// - every other edge has two triangles, in opposite directions, and does not lie on a face of the cell,
+// unless
 //   the neighbour cannot have it (with `chords` any may);
 // - the triangles around every vertex hang together, and every cut edge has its vertex;
 // - the parts and the Euler number are those of discs, and of one ring if there is a tunnel.

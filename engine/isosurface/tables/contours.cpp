@@ -8,8 +8,8 @@ namespace footwall::isosurface::tables {
 namespace {
 
 // The vertex after each cut edge's on its loop: on every face a contour runs from an edge where the ring of
-// corners goes inside to one where it goes outside. It is the end of the same inside run, or, where the inside
-// corners of an ambiguous face are joined, the start of the outside run before it.
+// corners goes inside to one where it goes outside. It is the end of the same inside run, or, where the
+// inside corners of an ambiguous face are joined, the start of the outside run before it.
 std::array<int, 12> steps(unsigned signs, unsigned joined) {
   std::array<int, 12> next{};
   next.fill(-1);
@@ -75,8 +75,8 @@ bool reaches(const Passage& passage, int axis, int line, int group) {
   return passage.group[corners[0]] == group || passage.group[corners[1]] == group;
 }
 
-// Whether the face at `side` of the axis allows p r < q s there, for the values at the ends of the lines, taken
-// positive where they have the sign that the tunnel joins.
+// Whether the face at `side` of the axis allows p r < q s there, for the values at the ends of the lines,
+// taken positive where they have the sign that the tunnel joins.
 bool parts(const Passage& passage, int axis, int side, const std::array<int, 4>& lines) {
   std::array<bool, 4> wanted{};
   for (int n = 0; n < 4; ++n)
@@ -89,16 +89,16 @@ bool parts(const Passage& passage, int axis, int side, const std::array<int, 4>&
 }
 
 // In slices across the axis the surface is a hyperbola with p r - q s = 0 where it changes its type; for
-// a tunnel this quadratic must be negative at both ends and positive between, in slices where p and r have the
-// wanted sign and q and s have not.
+// a tunnel this quadratic must be negative at both ends and positive between, in slices where p and r have
+// the wanted sign and q and s have not.
 bool passes(const Passage& passage, int axis) {
   for (const std::array<int, 4> lines : {std::array{0, 3, 1, 2}, std::array{1, 2, 0, 3}}) {
     const bool there =
         reaches(passage, axis, lines[0], passage.a) && reaches(passage, axis, lines[1], passage.b);
     const bool back =
         reaches(passage, axis, lines[0], passage.b) && reaches(passage, axis, lines[1], passage.a);
-    const bool between = reaches(passage, axis, lines[2], passage.around) &&
-                         reaches(passage, axis, lines[3], passage.around);
+    const bool between =
+        reaches(passage, axis, lines[2], passage.around) && reaches(passage, axis, lines[3], passage.around);
     if ((there || back) && between && parts(passage, axis, 0, lines) && parts(passage, axis, 1, lines))
       return true;
   }

@@ -5,8 +5,8 @@
 
 namespace footwall::isosurface::tables {
 
-// Edges of the cell, in the direction in which the patch that fills the loop is counter-clockwise as seen from
-// the outside of the surface: on a face seen from outside the cell the inside corners lie to the right.
+// Edges of the cell, in the direction in which the patch that fills the loop is counter-clockwise as seen
+// from the outside of the surface: on a face seen from outside the cell the inside corners lie to the right.
 using Loop = std::vector<int>;
 
 struct Contours {

@@ -1,5 +1,5 @@
-// Makes the case tables of isosurfaces: make_tables OUTPUT.cpp. It checks every entry, and all of them against
-// sampled trilinear fields; a fault fails the build.
+// Makes the case tables of isosurfaces: make_tables OUTPUT.cpp. It checks every entry, and all of them
+// against sampled trilinear fields; a fault fails the build.
 #include <exception>
 #include <fstream>
 #include <iostream>

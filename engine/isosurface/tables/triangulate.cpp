@@ -97,7 +97,8 @@ class Search {
       const std::size_t before = open_.size();
       if (apex > 1)
         open_.emplace_back(polygon.begin(), polygon.begin() + static_cast<std::ptrdiff_t>(apex) + 1);
-      if (apex + 1 < last) open_.emplace_back(polygon.begin() + static_cast<std::ptrdiff_t>(apex), polygon.end());
+      if (apex + 1 < last)
+        open_.emplace_back(polygon.begin() + static_cast<std::ptrdiff_t>(apex), polygon.end());
       descend({polygon[0], polygon[apex], polygon[last]}, centre_left);
       open_.resize(before);
     }

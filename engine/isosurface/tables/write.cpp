@@ -24,8 +24,9 @@ struct Pool {
     for (const auto& [alternative, entry] : entries) {
       pattern_of[first + alternative] = count++;
       patterns << "    {std::span(" << name << "Triangles).subspan(" << triangles.size() << ", "
-               << entry.filling.triangles.size() << "), " << (entry.filling.centre_edges != 0 ? "true" : "false")
-               << ", " << entry.filling.centre_edges << "},\n";
+               << entry.filling.triangles.size() << "), "
+               << (entry.filling.centre_edges != 0 ? "true" : "false") << ", " << entry.filling.centre_edges
+               << "},\n";
       triangles.insert(triangles.end(), entry.filling.triangles.begin(), entry.filling.triangles.end());
     }
   }

@@ -163,6 +163,7 @@ Json Bench::row_of(const Interleaving& interleaving) {
   options.normals = run_.normals;
   options.threads = run_.threads;
   if (run_.pyramid) options.bricks = &bricks_;
+  options.kernel_skips = variant_ == variants().data();
   const std::int64_t redundant = check(pillars, field_of, options);
 
   double best_max = std::numeric_limits<double>::infinity();

@@ -51,12 +51,7 @@ TEST_F(ExtractParallel, OnlyWhatThePyramidNamesIsRead) {
     const Pillars pillars(volume.dims, world.size(), interleaving);
     ParallelOptions options = with_keys();
     options.bricks = &pyramid.bricks;
-    // The plane kernel knows no bricks; the blocks that are read are chosen by them all the same.
-    options.kernel = [](const Field& field, float isovalue, const ExtractOptions& how, Surface& into) {
-      ExtractOptions plain = how;
-      plain.bricks = nullptr;
-      extract_plane(field, isovalue, plain, into);
-    };
+    options.kernel_skips = false;  // the plane kernel cannot
     Extraction extraction = extracted(volume, pillars, options);
     EXPECT_LT(world.sum(extraction.samples_read), volume.dims[0] * volume.dims[1] * volume.dims[2] / 2);
     const Surface whole = gathered(weld(world, pillars, true, extraction.pieces));

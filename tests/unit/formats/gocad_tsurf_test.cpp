@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sample_mesh.h"
+#include "sample_triangles.h"
 #include "scratch_folder.h"
 #include "storage/base/error.h"
 
@@ -215,6 +216,20 @@ TEST(GocadTsurf, SurvivesDamagedFiles) {
     }
   }
   EXPECT_GT(read_well, 1000);
+}
+
+TEST(GocadTsurf, ALargeSurfaceIsReadBack) {
+  const ScratchFolder folder;
+  write_surface(folder / "f.ts", sample_triangles(70000), {"iso {3}", "m", "ms", "down", ""});
+  const ReadResult read_back = read(folder / "f.ts");
+  ASSERT_EQ(read_back.objects.size(), 1u);
+  const Object& object = read_back.objects.front();
+  EXPECT_EQ(object.surface.vertices.size(), 70002u);
+  ASSERT_EQ(object.surface.triangles.size(), 70000u);
+  EXPECT_EQ(object.surface.triangles.back(), (std::array<std::int32_t, 3>{69999, 70000, 70001}));
+  EXPECT_NEAR(object.surface.vertices[70001].x, sample_position(70001)[0], 1e-6);
+  EXPECT_EQ(object.z_positive_up, std::optional<bool>(false));
+  EXPECT_EQ(object.vertical_unit, "ms");
 }
 
 }  // namespace

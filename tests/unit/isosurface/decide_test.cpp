@@ -72,7 +72,7 @@ TEST(Decide, AgreesWithTheSampledTrilinearField) {
   RecordProperty("alternatives", static_cast<int>(met.size()));
 }
 
-// Every tunnel is met by fields made for it: two opposite corners far above, the others just below.
+// Two opposite corners far above, the others just below.
 TEST(Decide, FindsTheTunnelBetweenOppositeCorners) {
   for (unsigned corner = 0; corner < 4; ++corner) {
     Values values{};
@@ -87,18 +87,19 @@ TEST(Decide, FindsTheTunnelBetweenOppositeCorners) {
   }
 }
 
-// v = 7 u - 1 along the diagonal of the slice k = 1/2 ... has its saddle at the isovalue: joined above.
+// Opposite corners at 3 in a cell of -1: in the middle slice ((3 - 1) / 2)^2 = (-1)^2.
 TEST(Decide, ASaddleAtTheIsovalueJoinsTheCornersAbove) {
   Values values{};
   values.fill(-1);
-  values[0] = values[7] = 3;  // both zeros of the slices' quadratic fall together
-  int joined = 0;
-  for (float high = 1; high <= 12; high += 0.5F) {
-    values[0] = values[7] = high;
-    joined += decide(signs_of(values), values, 0) != 0 ? 1 : 0;
-  }
-  EXPECT_GT(joined, 0);
-  EXPECT_LT(joined, 23);
+  values[0] = values[7] = 3;
+  EXPECT_EQ(decide(signs_of(values), values, 0), kTunnelAbove);
+  values[0] = std::nextafter(3.F, 0.F);
+  EXPECT_EQ(decide(signs_of(values), values, 0), 0);
+  values.fill(1);
+  values[0] = values[7] = -3;
+  EXPECT_EQ(decide(signs_of(values), values, 0), 0);
+  values[0] = std::nextafter(-3.F, -4.F);
+  EXPECT_EQ(decide(signs_of(values), values, 0), kTunnelBelow);
   // A face: 2 * 2 = 4 * 1.
   Values flat{2, -4, -1, 2, -9, -9, -9, -9};
   EXPECT_EQ(decide(signs_of(flat), flat, 0), 1U << 4);
@@ -127,37 +128,39 @@ TEST(Decide, DoesNotDependOnHowTheCellLies) {
 cpp_int in_smallest_floats(float value) {
   int exponent = 0;
   const float mantissa = std::frexp(value, &exponent);
-  return cpp_int(static_cast<std::int64_t>(std::ldexp(mantissa, 24))) << (exponent - 24 + 149 + 24) >> 24;
+  const cpp_int whole = static_cast<std::int64_t>(std::ldexp(mantissa, 24));
+  return exponent + 125 >= 0 ? cpp_int(whole << (exponent + 125)) : cpp_int(whole >> -(exponent + 125));
 }
 
-// Values and isovalues whose differences no double holds, and products that differ in their last bit.
+// With a = 1 + p and d = 1 - p, b = c = -1 the saddle is at the isovalue -p^2 / 4: products that differ in
+// bits which no double holds.
 TEST(Decide, FacesAreExactForFloatsOfAnySize) {
   std::mt19937_64 random(8);
   int hard = 0;
-  for (int n = 0; n < rounds(20000); ++n) {
-    const auto any = [&](float base) {
-      return std::ldexp(base * (1 + static_cast<float>(random() % 3) * 0x1p-23F),
-                        n % 4 == 0 ? static_cast<int>(random() % 250) - 140 : 0);
-    };
-    const float isovalue = n % 2 == 0 ? any(1) * 0x1p-40F : 0.F;
-    Values values{};
-    values.fill(-std::numeric_limits<float>::infinity());
-    values[0] = isovalue + any(3);
-    values[3] = isovalue + any(5);
-    values[1] = isovalue - any(3);
-    values[2] = isovalue - any(5);
+  int joined = 0;
+  for (int n = 0; n < rounds(5000); ++n) {
+    const auto p = std::ldexp(static_cast<float>(1 + random() % 1000), -23);
+    const float scale = std::ldexp(1.F, static_cast<int>(random() % 120) - 60);
+    float isovalue = -p * p / 4 * scale;
+    for (auto steps = random() % 4; steps > 0; --steps)
+      isovalue = std::nextafter(isovalue, n % 2 == 0 ? 0.F : -scale);
+    const Values values{(1 + p) * scale, -scale,     -scale,     (1 - p) * scale,
+                        -2 * scale,      -3 * scale, -2 * scale, -scale};
     const unsigned signs = signs_of(values, isovalue);
-    if (signs != 0b1001) continue;
+    ASSERT_EQ(signs, 0b1001U);
     const auto difference = [&](unsigned c) -> cpp_int {
       return in_smallest_floats(values[c]) - in_smallest_floats(isovalue);
     };
     const cpp_int saddle = difference(0) * difference(3) - difference(1) * difference(2);
-    const double rough = (static_cast<double>(values[0]) - isovalue) * (static_cast<double>(values[3]) - isovalue) -
-                         (static_cast<double>(values[1]) - isovalue) * (static_cast<double>(values[2]) - isovalue);
-    hard += (saddle >= 0) != (rough >= 0) ? 1 : 0;
+    const auto rough = [&](unsigned c) {
+      return static_cast<double>(values[c]) - static_cast<double>(isovalue);
+    };
+    hard += (saddle >= 0) != (rough(0) * rough(3) - rough(1) * rough(2) >= 0) ? 1 : 0;
+    joined += saddle >= 0 ? 1 : 0;
     ASSERT_EQ(decide(signs, values, isovalue), saddle >= 0 ? 1U << 4 : 0U) << n;
   }
-  EXPECT_GT(hard, 0);
+  EXPECT_GT(hard, 100);
+  EXPECT_GT(joined, 100);
 }
 
 TEST(Decide, InfiniteValuesAreDecidedAlikeOnBothSidesOfAFace) {

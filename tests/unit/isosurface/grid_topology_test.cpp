@@ -64,7 +64,8 @@ TEST(GridTopology, RandomGridsHaveTheFormOfTheTrilinearField) {
     ASSERT_EQ(form.open_edges, 0) << round;
     ASSERT_EQ(form.crowded_edges, 0) << round;
     ASSERT_EQ(form.twisted_edges, 0) << round;
-    const auto sampled = verify::grid_euler_number(std::vector<double>(grid.values.begin(), grid.values.end()), 6);
+    const auto sampled =
+        verify::grid_euler_number(std::vector<double>(grid.values.begin(), grid.values.end()), 6);
     if (!sampled) continue;
     ++compared;
     ASSERT_EQ(form.euler, *sampled) << round;

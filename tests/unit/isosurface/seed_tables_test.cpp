@@ -32,7 +32,8 @@ TEST(SeedTables, Seed002TurnsTheEntryOfTheComplementOver) {
   const Values any{};
   for (unsigned signs = 0; signs < 128; ++signs) {
     const Alternative here = rules.undecided(signs) ? rules.decide(signs, any, 0) : Alternative{0};
-    const Alternative there = rules.undecided(255 - signs) ? rules.decide(255 - signs, any, 0) : Alternative{0};
+    const Alternative there =
+        rules.undecided(255 - signs) ? rules.decide(255 - signs, any, 0) : Alternative{0};
     const Pattern& a = rules.pattern(signs, here);
     const Pattern& b = rules.pattern(255 - signs, there);
     ASSERT_EQ(a.triangles.size(), b.triangles.size()) << signs;

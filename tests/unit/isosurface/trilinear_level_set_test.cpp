@@ -8,11 +8,11 @@
 namespace footwall::verify {
 namespace {
 
-// Euler number and parts of {v >= 0} on n^3 samples of the cell, as a union of small cubes: what the halving
-// must find where nothing is finer than a sample.
+// The parts on n^3 samples of the cell, its corners among them: what the halving must find where nothing is
+// finer than a sample.
 int parts_by_flooding(const std::array<double, 8>& v, int n, bool inside) {
   const auto value = [&](int x, int y, int z) {
-    const double t[3] = {(x + 0.5) / n, (y + 0.5) / n, (z + 0.5) / n};
+    const double t[3] = {x / (n - 1.0), y / (n - 1.0), z / (n - 1.0)};
     double sum = 0;
     for (int c = 0; c < 8; ++c)
       sum += v[c] * ((c & 1) != 0 ? t[0] : 1 - t[0]) * ((c & 2) != 0 ? t[1] : 1 - t[1]) *
@@ -71,8 +71,8 @@ TEST(TrilinearLevelSet, PartsAreThoseThatFloodingFinds) {
     const auto exact = trilinear_level_set(v);
     ASSERT_TRUE(exact);
     for (const bool inside : {true, false}) {
-      const int coarse = parts_by_flooding(v, 20, inside);
-      if (coarse != parts_by_flooding(v, 27, inside)) continue;  // finer than a sample
+      const int coarse = parts_by_flooding(v, 21, inside);
+      if (coarse != parts_by_flooding(v, 34, inside)) continue;  // finer than a sample
       ++compared;
       EXPECT_EQ(coarse, inside ? exact->inside : exact->outside) << round;
     }
