@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "engine/render/camera.h"
@@ -21,8 +22,12 @@ constexpr std::size_t kJobLimit = std::size_t{1} << 20;
 constexpr double kAzimuth = 30;
 constexpr double kElevation = 25;
 
-NLOHMANN_JSON_SERIALIZE_ENUM(
-    Kind, {{Kind::kRaw, "raw"}, {Kind::kMesh, "mesh"}, {Kind::kSphere, "sphere"}, {Kind::kGyroid, "gyroid"}})
+struct NamedKind {
+  const char* name;
+  Kind kind;
+};
+constexpr NamedKind kKinds[] = {
+    {"raw", Kind::kRaw}, {"mesh", Kind::kMesh}, {"sphere", Kind::kSphere}, {"gyroid", Kind::kGyroid}};
 
 // The finished picture, as somebody who asked for it would take it.
 struct Finished {
@@ -102,6 +107,8 @@ struct Phase {
 }  // namespace
 
 void write_render_bench(const RenderBench& bench, const std::filesystem::path& path) {
+  const auto* const kind = std::find_if(std::begin(kKinds), std::end(kKinds),
+                                        [&](const NamedKind& k) { return k.kind == bench.scene.kind; });
   const Json json{{"footwall_render_bench", 1},
                   {"width", bench.width},
                   {"height", bench.height},
@@ -109,7 +116,7 @@ void write_render_bench(const RenderBench& bench, const std::filesystem::path& p
                   {"repeat", bench.repeat},
                   {"group_threshold", bench.group_threshold},
                   {"scene",
-                   {{"kind", bench.scene.kind},
+                   {{"kind", kind->name},
                     {"file", bench.scene.file.string()},
                     {"dims", bench.scene.dims},
                     {"value", bench.scene.value},
@@ -139,7 +146,10 @@ RenderBench read_render_bench(const std::filesystem::path& path) {
     bench.repeat = json.at("repeat").get<int>();
     bench.group_threshold = json.at("group_threshold").get<double>();
     const Json& scene = json.at("scene");
-    bench.scene.kind = scene.at("kind").get<Kind>();
+    const auto* const kind = std::find_if(std::begin(kKinds), std::end(kKinds),
+                                          [&](const NamedKind& k) { return scene.at("kind") == k.name; });
+    if (kind == std::end(kKinds)) throw odd;
+    bench.scene.kind = kind->kind;
     bench.scene.file = scene.at("file").get<std::string>();
     bench.scene.dims = scene.at("dims").get<survey::Index>();
     bench.scene.value = scene.at("value").get<float>();
