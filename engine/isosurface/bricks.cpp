@@ -1,8 +1,7 @@
 #include "engine/isosurface/bricks.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -18,159 +17,204 @@ namespace {
 
 using namespace detail;
 
-// What one plane of samples, and the cells above it, give.
-struct PlaneContent {
-  std::uint64_t vertices = 0;  // after numbering: of the planes before it
-  std::uint64_t triangles = 0;
-  std::vector<SlowCell> slow;
+[[noreturn]] void refuse_vertices() {
+  throw Error(ErrorCode::kUnsupported, "the isosurface would have more than 2^32 - 1 vertices",
+              "take a part of the volume, or more ranks");
+}
+
+// Planes of samples [first, last) that one thread works through.
+struct Run {
+  std::int64_t first = 0;
+  std::int64_t last = 0;
 };
 
-// Planes are worked on in runs, since each run looks at a plane more than it has.
-struct Runs {
-  Runs(std::int64_t planes_of, int threads) : planes(planes_of) {
-    constexpr std::int64_t kRunsAThread = 8;
-    constexpr std::int64_t kShortest = 4;
-    length = threads == 1 ? planes : std::max(kShortest, planes / (kRunsAThread * threads));
-    count = (planes + length - 1) / length;
+// As many runs as threads, of about equal work as far as the bricks tell.
+std::vector<Run> runs_of(const Frame& frame, const CellMasks& masks, int threads) {
+  const auto planes = static_cast<std::size_t>(frame.sample_planes);
+  std::vector<double> work(planes + 1, 0);
+  for (std::size_t p = 0; p < planes; ++p) {
+    const auto cell_plane = std::min(static_cast<std::int64_t>(p), frame.cell_planes - 1);
+    work[p + 1] = work[p] + masks.work(cell_plane);
   }
-  std::int64_t first(std::int64_t run) const { return run * length; }
-  std::int64_t last(std::int64_t run) const { return std::min(planes, (run + 1) * length); }
-
-  std::int64_t planes;
-  std::int64_t length = 1;
-  std::int64_t count = 0;
-};
-
-// The active cells of two planes one after the other.
-class ActivePair {
- public:
-  ActivePair(const Frame& frame, const CellMasks& masks, const BitPlanes& planes)
-      : frame_(&frame), masks_(&masks), planes_(&planes), before_(frame), here_(frame) {}
-
-  void start(std::int64_t p) { find_active(*frame_, *masks_, *planes_, p - 1, here_); }
-  // To the plane p, after start(p) or advance(p - 1).
-  void advance(std::int64_t p) {
-    std::swap(before_, here_);
-    find_active(*frame_, *masks_, *planes_, p, here_);
+  std::vector<Run> runs;
+  std::int64_t first = 0;
+  for (int n = 1; n <= threads && first < frame.sample_planes; ++n) {
+    const double goal = work.back() * n / threads;
+    auto last = static_cast<std::int64_t>(std::lower_bound(work.begin(), work.end(), goal) - work.begin());
+    last = n == threads ? frame.sample_planes : std::clamp(last, first, frame.sample_planes);
+    if (last > first) runs.push_back({first, last});
+    first = last;
   }
-  const ActiveCells& before() const { return before_; }
-  const ActiveCells& here() const { return here_; }
+  return runs;
+}
 
- private:
-  const Frame* frame_;
-  const CellMasks* masks_;
-  const BitPlanes* planes_;
-  ActiveCells before_;
-  ActiveCells here_;
-};
-
-class Extraction {
+// One run from samples to triangles, plane by plane, so that samples are in the cache when vertices are made
+// of them. Vertices are numbered from 0.
+class March {
  public:
-  Extraction(const Frame& frame, const ExtractOptions& options, Surface& into)
+  March(const Frame& frame, const CellMasks& masks, const CaseLookup& cases, const ExtractOptions& options,
+        const Run& run, Surface& into, std::uint64_t* row_first)
       : frame_(frame),
+        masks_(masks),
+        cases_(cases),
         options_(options),
+        run_(run),
         into_(into),
-        masks_(frame, options.bricks),
-        runs_(frame.sample_planes, options.threads),
-        planes_(static_cast<std::size_t>(frame.sample_planes)),
-        centres_(static_cast<std::size_t>(runs_.count)) {}
+        row_first_(row_first),
+        signs_(frame),
+        before_(frame),
+        active_(frame),
+        edges_(frame),
+        next_edges_(frame) {
+    into.positions.resize_uninitialised(0);
+    into.normals.resize_uninitialised(0);
+    into.keys.resize_uninitialised(0);
+    into.triangles.resize_uninitialised(0);
+  }
 
-  void run() {
-    find_signs(frame_, masks_, options_.threads, signs_);
-    for_each_in_parallel(runs_.count, options_.threads, [&](std::int64_t run, int) { count(run); });
-    number();
-    for_each_in_parallel(runs_.count, options_.threads, [&](std::int64_t run, int) { write(run); });
-    for_each_in_parallel(runs_.count, options_.threads, [&](std::int64_t run, int) {
-      write_centres(centres_[static_cast<std::size_t>(run)], into_.positions.data(),
-                    options_.normals ? into_.normals.data() : nullptr);
-    });
+  // The loops of the centre vertices, which are not made: the last ones hang on vertices of the next run.
+  std::vector<CentreLoop> run() {
+    for (std::int64_t p = run_.first - 1; p <= run_.first + 1; ++p) scan(p);
+    find_active(frame_, masks_, signs_, run_.first - 1, active_);
+    // One plane more than the run has, since triangles name vertices of the plane after theirs.
+    for (std::int64_t p = run_.first; p <= std::min(run_.last, frame_.cell_planes); ++p) {
+      if (p < run_.last) scan(p + 2);
+      const std::uint64_t vertices = find(p);
+      if (p > run_.first) write_triangle_plane();
+      if (p < run_.last) write_vertex_plane(vertices);
+    }
+    return std::move(centres_);
   }
 
  private:
-  PlaneContent& plane(std::int64_t p) { return planes_[static_cast<std::size_t>(p)]; }
-
-  void count(std::int64_t run) {
-    ActivePair active(frame_, masks_, signs_);
-    PlaneMasks edges(frame_);
-    active.start(runs_.first(run));
-    for (std::int64_t p = runs_.first(run); p < runs_.last(run); ++p) {
-      active.advance(p);
-      PlaneContent& content = plane(p);
-      content.vertices = find_edges(frame_, signs_, p, active.before(), active.here(), edges);
-      content.triangles = count_triangles(frame_, signs_, cases_, p, active.here(), content.slow);
-      content.vertices += static_cast<std::uint64_t>(std::count_if(
-          content.slow.begin(), content.slow.end(), [](const SlowCell& c) { return c.has_centre; }));
-    }
+  void scan(std::int64_t p) {
+    if (p >= 0 && p < frame_.sample_planes) signs_.scan(frame_, masks_, p);
   }
 
-  // From the numbers of each plane to those of all before it, and the room for all.
-  void number() {
-    std::uint64_t vertices = 0;
-    std::uint64_t triangles = 0;
-    for (PlaneContent& content : planes_) {
-      vertices += std::exchange(content.vertices, vertices);
-      triangles += std::exchange(content.triangles, triangles);
-    }
-    if (vertices > std::numeric_limits<std::uint32_t>::max()) {
-      throw Error(ErrorCode::kUnsupported, fmt::format("the isosurface would have {} vertices", vertices),
-                  "at most 2^32 - 1 have numbers; take a part of the volume, or more ranks");
-    }
-    into_.positions.resize_uninitialised(vertices);
-    into_.normals.resize_uninitialised(options_.normals ? vertices : 0);
-    into_.keys.resize_uninitialised(options_.keys ? vertices : 0);
-    into_.triangles.resize_uninitialised(triangles);
-    into_.row_first.resize(static_cast<std::size_t>(frame_.cell_planes * frame_.cell_rows) + 1);
-    into_.row_first.back() = triangles;
+  // What plane p has, in numbers and bits. Returns the vertices.
+  std::uint64_t find(std::int64_t p) {
+    std::swap(before_, active_);
+    std::swap(edges_, next_edges_);
+    std::swap(slow_, next_slow_);
+    triangles_ = next_triangles_;
+    find_active(frame_, masks_, signs_, p, active_);
+    std::uint64_t vertices = find_edges(frame_, signs_, p, before_, active_, next_edges_);
+    next_slow_.clear();
+    next_triangles_ = count_triangles(frame_, signs_, cases_, p, active_, next_slow_);
+    vertices += count_centres(next_slow_, next_edges_);
+    const std::uint64_t first = into_.positions.size();
+    if (first + vertices > std::numeric_limits<std::uint32_t>::max()) refuse_vertices();
+    number_vertices(frame_, first, next_edges_);
+    return vertices;
   }
 
-  void write(std::int64_t run) {
-    ActivePair active(frame_, masks_, signs_);
-    PlaneMasks here(frame_);
-    PlaneMasks next(frame_);
-    VertexList list;
-    std::vector<CentreLoop>& centres = centres_[static_cast<std::size_t>(run)];
-    const std::int64_t end = runs_.last(run);
-    active.start(runs_.first(run));
-    // One plane ahead, since triangles name vertices of the plane after theirs.
-    for (std::int64_t p = runs_.first(run); p <= std::min(end, frame_.cell_planes); ++p) {
-      std::swap(here, next);
-      active.advance(p);
-      find_edges(frame_, signs_, p, active.before(), active.here(), next);
-      count_centres(plane(p).slow, next);
-      number_vertices(frame_, plane(p).vertices, next);
-      if (p > runs_.first(run)) write_triangle_plane(here, next, centres);
-      if (p < end) write_vertex_plane(next, list);
-    }
-  }
-
-  void write_vertex_plane(const PlaneMasks& masks, VertexList& list) {
-    const PlaneContent& content = plane(masks.p);
-    list_vertices(frame_, masks, content.slow, list);
-    const std::uint64_t first = content.vertices;
-    write_vertices(frame_, masks.p, list, into_.positions.data() + first,
+  void write_vertex_plane(std::uint64_t count) {
+    const std::size_t first = into_.positions.size();
+    into_.positions.grow(first + count);
+    if (options_.normals) into_.normals.grow(first + count);
+    if (options_.keys) into_.keys.grow(first + count);
+    list_vertices(frame_, next_edges_, next_slow_, list_);
+    write_vertices(frame_, next_edges_.p, list_, into_.positions.data() + first,
                    options_.normals ? into_.normals.data() + first : nullptr,
                    options_.keys ? into_.keys.data() + first : nullptr);
   }
 
-  void write_triangle_plane(const PlaneMasks& here, const PlaneMasks& next,
-                            std::vector<CentreLoop>& centres) {
-    const PlaneContent& content = plane(here.p);
-    const std::uint64_t end = plane(here.p + 1).triangles;  // there is a plane of samples after any cells
-    write_triangles(frame_, signs_, cases_, here, next, content.slow, content.triangles,
-                    into_.triangles.all().subspan(content.triangles, end - content.triangles),
-                    into_.row_first.data() + here.p * frame_.cell_rows, centres);
+  // Of the plane before the one found last.
+  void write_triangle_plane() {
+    const std::size_t first = into_.triangles.size();
+    into_.triangles.grow(first + triangles_);
+    write_triangles(frame_, cases_, before_, edges_, next_edges_, slow_, first,
+                    into_.triangles.all().subspan(first), row_first_ + edges_.p * frame_.cell_rows, centres_);
   }
 
   const Frame& frame_;
+  const CellMasks& masks_;
+  const CaseLookup& cases_;
   const ExtractOptions& options_;
+  Run run_;
   Surface& into_;
-  CaseLookup cases_;
-  CellMasks masks_;
+  std::uint64_t* row_first_;
   BitPlanes signs_;
-  Runs runs_;
-  std::vector<PlaneContent> planes_;
-  std::vector<std::vector<CentreLoop>> centres_;  // per run
+  ActiveCells before_;
+  ActiveCells active_;
+  PlaneMasks edges_;
+  PlaneMasks next_edges_;
+  std::vector<SlowCell> slow_;
+  std::vector<SlowCell> next_slow_;
+  std::uint64_t triangles_ = 0;
+  std::uint64_t next_triangles_ = 0;
+  VertexList list_;
+  std::vector<CentreLoop> centres_;
 };
+
+// What a run gave, and where it goes in the whole.
+struct Part {
+  Surface surface;  // not of the first run, whose is the whole's beginning
+  std::vector<CentreLoop> centres;
+  std::uint64_t first_vertex = 0;
+  std::uint64_t first_triangle = 0;
+};
+
+// Slice n of `slices` of what a part has.
+template <class T>
+void copy_slice(const PageVector<T>& from, std::uint64_t first, std::size_t n, std::size_t slices,
+                PageVector<T>& into) {
+  if (into.empty()) return;  // not asked for
+  const std::size_t begin = from.size() * n / slices;
+  std::copy(from.data() + begin, from.data() + from.size() * (n + 1) / slices, into.data() + first + begin);
+}
+
+void copy_triangles(const Part& part, std::size_t n, std::size_t slices, Surface& into) {
+  const std::size_t begin = part.surface.triangles.size() * n / slices;
+  const std::size_t end = part.surface.triangles.size() * (n + 1) / slices;
+  const Triangle* const from = part.surface.triangles.data();
+  Triangle* const to = into.triangles.data() + part.first_triangle;
+  const auto by = static_cast<std::uint32_t>(part.first_vertex);
+  for (std::size_t t = begin; t < end; ++t) to[t] = {from[t][0] + by, from[t][1] + by, from[t][2] + by};
+}
+
+// Puts the parts of all runs behind that of the first one.
+void join(const Frame& frame, const std::vector<Run>& runs, const ExtractOptions& options,
+          std::vector<Part>& parts, Surface& into) {
+  std::uint64_t vertices = into.positions.size();
+  std::uint64_t triangles = into.triangles.size();
+  for (std::size_t run = 1; run < runs.size(); ++run) {
+    parts[run].first_vertex = vertices;
+    parts[run].first_triangle = triangles;
+    vertices += parts[run].surface.positions.size();
+    triangles += parts[run].surface.triangles.size();
+  }
+  if (vertices > std::numeric_limits<std::uint32_t>::max()) refuse_vertices();
+  into.positions.grow(vertices);
+  if (options.normals) into.normals.grow(vertices);
+  if (options.keys) into.keys.grow(vertices);
+  into.triangles.grow(triangles);
+  into.row_first.back() = triangles;
+
+  const auto slices = static_cast<std::size_t>(options.threads);
+  for (std::size_t run = 1; run < runs.size(); ++run) {
+    Part& part = parts[run];
+    for_each_in_parallel(options.threads, options.threads, [&](std::int64_t slice, int) {
+      const auto n = static_cast<std::size_t>(slice);
+      copy_slice(part.surface.positions, part.first_vertex, n, slices, into.positions);
+      copy_slice(part.surface.normals, part.first_vertex, n, slices, into.normals);
+      copy_slice(part.surface.keys, part.first_vertex, n, slices, into.keys);
+      copy_triangles(part, n, slices, into);
+    });
+    part.surface = {};
+    const std::int64_t last = std::min(runs[run].last, frame.cell_planes) * frame.cell_rows;
+    for (std::int64_t row = runs[run].first * frame.cell_rows; row < last; ++row) {
+      into.row_first[static_cast<std::size_t>(row)] += part.first_triangle;
+    }
+  }
+  for (Part& part : parts) {
+    for (CentreLoop& centre : part.centres) {
+      centre.vertex += static_cast<std::uint32_t>(part.first_vertex);
+      for (std::uint32_t& vertex : centre.around) vertex += static_cast<std::uint32_t>(part.first_vertex);
+    }
+    write_centres(part.centres, into.positions.data(), options.normals ? into.normals.data() : nullptr);
+  }
+}
 
 void make_empty(Surface& into) {
   into.positions.resize_uninitialised(0);
@@ -190,7 +234,17 @@ void extract_bricks(const Field& field, float isovalue, const ExtractOptions& op
     return;
   }
   const Frame frame(field, isovalue, into.cells);
-  Extraction(frame, options, into).run();
+  const CellMasks masks(frame, options.bricks);
+  const CaseLookup cases;
+  const std::vector<Run> runs = runs_of(frame, masks, options.threads);
+  std::vector<Part> parts(runs.size());
+  into.row_first.resize(static_cast<std::size_t>(frame.cell_planes * frame.cell_rows) + 1);
+  for_each_in_parallel(static_cast<std::int64_t>(runs.size()), options.threads, [&](std::int64_t n, int) {
+    const auto run = static_cast<std::size_t>(n);
+    Surface& made = run == 0 ? into : parts[run].surface;
+    parts[run].centres = March(frame, masks, cases, options, runs[run], made, into.row_first.data()).run();
+  });
+  join(frame, runs, options, parts, into);
 }
 
 }  // namespace footwall::isosurface

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "storage/base/error.h"
 
@@ -58,6 +59,24 @@ PageRoom page_room(std::size_t bytes) {
   void* const memory = std::aligned_alloc(kLine, whole);
   if (memory == nullptr) refuse(bytes);
   return {static_cast<std::byte*>(memory), ReleasePages{whole}};
+}
+
+PageRoom larger_room(PageRoom room, std::size_t used, std::size_t bytes) {
+  PageRoom larger = page_room(bytes);
+  const std::size_t old_bytes = room == nullptr ? 0 : room.get_deleter().bytes;
+  if (old_bytes < kHugePage) {
+    if (used > 0) std::memcpy(larger.get(), room.get(), used);
+    return larger;
+  }
+  // Both stand on the border of a huge page, so that whole tables of pages are moved.
+  const std::size_t moved = rounded_up(used, kHugePage);
+  if (moved > 0 &&
+      mremap(room.get(), moved, moved, MREMAP_MAYMOVE | MREMAP_FIXED, larger.get()) == MAP_FAILED) {
+    refuse(bytes);
+  }
+  std::byte* const rest = room.release() + moved;
+  if (moved < old_bytes) munmap(rest, old_bytes - moved);
+  return larger;
 }
 
 }  // namespace footwall::isosurface

@@ -26,8 +26,11 @@ std::vector<T> rows_of(hid_t file, const char* name, hid_t type, const std::file
     not_ours(path, fmt::format("{} does not have three columns", name));
   }
   // Its bytes must be in the file, so that a few bytes cannot ask for any amount of memory.
-  if (H5Dget_storage_size(dataset.id()) < extent[0] * 3 * sizeof(T) ||
-      extent[0] * 3 * sizeof(T) > std::filesystem::file_size(path)) {
+  const Handle stored(H5Dget_type(dataset.id()), H5Tclose);
+  const std::uint64_t file_bytes = std::filesystem::file_size(path);
+  const std::uint64_t row_bytes = 3 * H5Tget_size(stored.id());
+  if (extent[0] > file_bytes || H5Dget_storage_size(dataset.id()) < extent[0] * row_bytes ||
+      extent[0] * row_bytes > file_bytes) {
     not_ours(path, fmt::format("{} is longer than the file", name));
   }
   std::vector<T> values(static_cast<std::size_t>(extent[0] * 3));

@@ -32,14 +32,15 @@ std::string names_of(std::span<const Kind> kinds) {
 
 tasks::IsovalueSweep sweep_from(const std::string& words) {
   const auto parts = text::split(words, ':');
-  const auto first = parts.size() == 3 ? text::number(parts[0]) : std::nullopt;
-  const auto last = parts.size() == 3 ? text::number(parts[1]) : std::nullopt;
-  const auto count = parts.size() == 3 ? text::integer(parts[2]) : std::nullopt;
-  if (!first || !last || !count || *count < 1 || *count > 10000) {
-    throw Error(ErrorCode::kUsage, fmt::format("--sweep {} says no isovalues", words),
-                "give first, last and how many, e.g. 0:100:21");
+  if (parts.size() == 3) {
+    const auto first = text::number(parts[0]), last = text::number(parts[1]);
+    const std::int64_t count = text::integer(parts[2]).value_or(0);
+    if (first && last && count >= 1 && count <= 10000) {
+      return {static_cast<float>(*first), static_cast<float>(*last), static_cast<int>(count)};
+    }
   }
-  return {static_cast<float>(*first), static_cast<float>(*last), static_cast<int>(*count)};
+  throw Error(ErrorCode::kUsage, fmt::format("--sweep {} says no isovalues", words),
+              "give first, last and how many, e.g. 0:100:21");
 }
 
 console::Output of_sweep(const Options& options, const console::Console& console) {

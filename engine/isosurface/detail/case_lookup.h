@@ -7,11 +7,11 @@
 
 namespace footwall::isosurface::detail {
 
-// The vertices of a cell at hand, by lane: 0, 1 the i edges 0 and 1, 2, 3 the j edges 4 and 5, 4..7 the k
-// edges 8..11, then from lane 8 on those of the first four whose k is one more: edges 2, 3, 6, 7; lane 12 the
+// The vertices of a cell at hand, by lane: 0, 4 the i edges 0 and 1, 1, 3 the j edges 4 and 5, 2, 5, 6, 7 the
+// k edges 8..11; eight lanes on the edges of the first four whose k is one more: 2, 3, 6, 7; lane 10 the
 // centre.
 inline constexpr int kLanes = 16;
-inline constexpr std::array<std::uint8_t, 13> kLaneOfEdge = {0, 1, 8, 9, 2, 3, 10, 11, 4, 5, 6, 7, 12};
+inline constexpr std::array<std::uint8_t, 13> kLaneOfEdge = {0, 4, 8, 12, 1, 3, 9, 11, 2, 5, 6, 7, 10};
 
 // Its count is not known from the signs, or it does not fit into one vector.
 inline constexpr std::uint8_t kSlow = 255;

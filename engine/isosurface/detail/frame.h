@@ -24,10 +24,7 @@ struct Frame {
   // a row that ends before its last word does have bits that mean nothing.
   std::size_t words;
 
-  // Rows of samples by place in the frame: p, r = 0, 0 is the row of cells.lo.
-  std::size_t row(std::int64_t p, std::int64_t r) const {
-    return static_cast<std::size_t>(p * sample_rows + r);
-  }
+  // The row of samples (p, r) of the frame, from the field's first k on: 0, 0 is the row of cells.lo.
   const float* samples(std::int64_t p, std::int64_t r) const {
     return values + (cells.lo[0] + p) * plane_step + (cells.lo[1] + r) * row_step;
   }

@@ -20,8 +20,8 @@ HWY_INLINE std::uint64_t upper(std::uint64_t word, std::uint64_t next) {
 }
 
 // rows[c]: the signs of the samples (p + (c & 1), r + (c >> 1)). Returns the OR of what is written.
-HWY_INLINE std::uint64_t active_row(const std::uint64_t* const* rows, const std::uint64_t* HWY_RESTRICT mask,
-                                    std::size_t words, std::uint64_t* HWY_RESTRICT into) {
+HWY_INLINE std::uint64_t mixed_cells(const std::uint64_t* const* rows, const std::uint64_t* HWY_RESTRICT mask,
+                                     std::size_t words, std::uint64_t* HWY_RESTRICT into) {
   const std::uint64_t* HWY_RESTRICT const a = rows[0];
   const std::uint64_t* HWY_RESTRICT const b = rows[1];
   const std::uint64_t* HWY_RESTRICT const c = rows[2];
@@ -40,36 +40,47 @@ HWY_INLINE std::uint64_t active_row(const std::uint64_t* const* rows, const std:
   return all;
 }
 
+// Whether the row has active cells.
+bool active_row(const Frame& frame, const std::uint64_t* mask, const BitPlanes& planes, std::int64_t p,
+                std::int64_t r, std::uint64_t* words) {
+  const std::uint64_t* const rows[4] = {planes.inside(p, r), planes.inside(p + 1, r), planes.inside(p, r + 1),
+                                        planes.inside(p + 1, r + 1)};
+  std::uint64_t all = mixed_cells(rows, mask, frame.words, words);
+  for (std::int64_t c = 0; c < 4 && all != 0; ++c) {
+    if (!planes.has_null(p + (c & 1), r + (c >> 1))) continue;
+    const std::uint64_t* const known = planes.known(p + (c & 1), r + (c >> 1));
+    all = 0;
+    for (std::size_t w = 0; w < frame.words; ++w) {
+      words[w] &= known[w] & upper(known[w], known[w + 1]);
+      all |= words[w];
+    }
+  }
+  return all != 0;
+}
+
 void active_plane(const Frame& frame, const CellMasks& masks, const BitPlanes& planes, std::int64_t p,
                   ActiveCells& into) {
   into.from = frame.cell_rows;
   into.to = 0;
+  std::size_t count = 0;
   for (std::int64_t r = 0; r < frame.cell_rows; ++r) {
     const auto place = static_cast<std::size_t>(r);
-    into.any[place] = 0;
+    into.first[place] = count;
     const std::uint64_t* const mask = masks.row(p, r);
-    if (mask == nullptr) continue;
     std::uint64_t* const words = into.words.data() + place * frame.words;
-    const std::size_t corners[4] = {frame.row(p, r), frame.row(p + 1, r), frame.row(p, r + 1),
-                                    frame.row(p + 1, r + 1)};
-    const std::uint64_t* rows[4];
-    for (int c = 0; c < 4; ++c) rows[c] = planes.inside.data() + corners[c] * frame.words;
-    std::uint64_t all = active_row(rows, mask, frame.words, words);
-    if (all == 0) continue;
-    for (const std::size_t corner : corners) {
-      if (planes.has_null[corner] == 0) continue;
-      const std::uint64_t* const known = planes.known.data() + corner * frame.words;
-      all = 0;
-      for (std::size_t w = 0; w < frame.words; ++w) {
-        words[w] &= known[w] & upper(known[w], known[w + 1]);
-        all |= words[w];
-      }
-    }
-    if (all == 0) continue;
-    into.any[place] = 1;
+    if (mask == nullptr || !active_row(frame, mask, planes, p, r, words)) continue;
     into.from = std::min(into.from, r);
     into.to = r + 1;
+    if (into.cells.size() < count + 64 * frame.words + kListSlack) {
+      into.cells.resize(2 * count + 64 * frame.words + kListSlack);
+    }
+    std::uint32_t* cells = into.cells.data() + count;
+    for (std::size_t w = 0; w < frame.words; ++w) {
+      if (words[w] != 0) cells = list_bits(words[w], static_cast<std::uint32_t>(64 * w), cells);
+    }
+    count = static_cast<std::size_t>(cells - into.cells.data());
   }
+  into.first.back() = count;
 }
 
 std::uint64_t edge_plane(const Frame& frame, const BitPlanes& planes, std::int64_t p,
@@ -78,7 +89,9 @@ std::uint64_t edge_plane(const Frame& frame, const BitPlanes& planes, std::int64
   std::uint64_t crossed = 0;
   // Cells of the row r of a plane of cells.
   const auto cells_of_row = [&](const ActiveCells& plane, std::int64_t r) {
-    if (r < plane.from || r >= plane.to || plane.any[static_cast<std::size_t>(r)] == 0) return none;
+    if (r < plane.from || r >= plane.to) return none;
+    const auto row = static_cast<std::size_t>(r);
+    if (plane.first[row] == plane.first[row + 1]) return none;
     return plane.words.data() + static_cast<std::size_t>(r) * frame.words;
   };
   into.from = frame.sample_rows;
@@ -98,10 +111,9 @@ std::uint64_t edge_plane(const Frame& frame, const BitPlanes& planes, std::int64
     counts.any = here_here != none || here_before != none || before_here != none || before_before != none;
     if (!counts.any) continue;
     // An edge beyond the frame has no cells around it, so any signs will do for its upper end.
-    const std::uint64_t* const signs = planes.inside.data() + frame.row(p, r) * frame.words;
-    const std::uint64_t* const signs_j = r < frame.cell_rows ? signs + frame.words : signs;
-    const std::uint64_t* const signs_i =
-        p < frame.cell_planes ? planes.inside.data() + frame.row(p + 1, r) * frame.words : signs;
+    const std::uint64_t* const signs = planes.inside(p, r);
+    const std::uint64_t* const signs_j = r < frame.cell_rows ? planes.inside(p, r + 1) : signs;
+    const std::uint64_t* const signs_i = p < frame.cell_planes ? planes.inside(p + 1, r) : signs;
     WordMasks* const words = into.words.data() + static_cast<std::size_t>(r) * frame.words;
     std::uint64_t carry_j = 0;  // whether the cell below the word has the edge, too
     std::uint64_t carry_i = 0;
@@ -110,7 +122,6 @@ std::uint64_t edge_plane(const Frame& frame, const BitPlanes& planes, std::int64
       const std::uint64_t around_i = here_here[w] | here_before[w];
       const std::uint64_t around_k = around_j | here_before[w] | before_before[w];
       WordMasks& word = words[w];
-      word.cells = here_here[w];
       if ((around_k | carry_j | carry_i) == 0) {
         word.edges = {};
       } else {

@@ -1,7 +1,8 @@
 // The active cells of a plane of cells, and the lattice edges of a plane of samples that the isosurface
-// crosses, as bits; made anew by every pass, since that costs less than to keep them.
+// crosses, as bits.
 #pragma once
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -14,20 +15,39 @@ namespace footwall::isosurface::detail {
 struct ActiveCells {
   explicit ActiveCells(const Frame& frame)
       : words(static_cast<std::size_t>(frame.cell_rows) * frame.words),
-        any(static_cast<std::size_t>(frame.cell_rows)) {}
+        first(static_cast<std::size_t>(frame.cell_rows) + 1) {}
 
   std::int64_t from = 0;  // the rows outside [from, to) have none, and their entries mean nothing
   std::int64_t to = 0;
-  std::vector<std::uint64_t> words;  // [r][word], of rows with any
-  std::vector<std::uint8_t> any;     // per row
+  std::vector<std::uint64_t> words;  // a bit per cell, [r][word]; of rows that have none nothing is known
+  std::vector<std::uint32_t> cells;  // the k of the cells, row by row
+  std::vector<std::size_t> first;    // row r has cells[first[r]] .. cells[first[r + 1]]
+  std::vector<std::uint8_t> bits;    // per cell, as CaseLookup counts corners; see count_triangles()
 };
 
 // 64 samples of a row: bit k of edges[axis] is the edge from sample k along the axis.
 struct WordMasks {
-  std::uint64_t cells = 0;
   std::array<std::uint64_t, 3> edges{};
   std::array<std::uint32_t, 3> first{};  // number of the vertex of the lowest bit of each
+  std::uint32_t unused = 0;              // so that vectors of four can be read from both
 };
+
+// Writes the places of the bits, ascending, `first` for bit 0, and returns where the next one goes; writes up
+// to three more than there are.
+template <class Number>
+inline Number* list_bits(std::uint64_t bits, Number first_place, Number* into) {
+  Number* const end = into + std::popcount(bits);
+  // Most words have few: four at a time, without asking how many there are, spare mispredicted branches.
+  while (true) {
+    for (int n = 0; n < 4; ++n) {
+      into[n] = first_place + static_cast<Number>(std::countr_zero(bits));
+      bits &= bits - 1;
+    }
+    if (bits == 0) return end;
+    into += 4;
+  }
+}
+inline constexpr std::size_t kListSlack = 4;
 
 struct PlaneMasks {
   explicit PlaneMasks(const Frame& frame)
@@ -47,7 +67,7 @@ struct PlaneMasks {
   std::vector<RowCounts> counts;
 };
 
-// Both need find_signs() done.
+// The planes p and p + 1 must be scanned.
 void find_active(const Frame& frame, const CellMasks& masks, const BitPlanes& planes, std::int64_t p,
                  ActiveCells& into);
 // `before` and `here`: the active cells of planes p - 1 and p. Returns the number of crossed edges. first and

@@ -41,177 +41,154 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The signs of 64 samples, and of the one after, on the four rows of a row of cells.
-struct CellSigns {
-  std::array<std::uint64_t, 4> word;
-  std::array<std::uint64_t, 4> next;
-
-  // As CaseLookup counts them, of the cell k, 0..63.
-  HWY_INLINE unsigned at(unsigned k) const {
-    std::uint64_t bits = 0;
-    if (k < 63) {
-      for (unsigned n = 0; n < 4; ++n) bits |= (word[n] >> k & 3U) << (2 * n);
-    } else {
-      for (unsigned n = 0; n < 4; ++n) bits |= (word[n] >> 63 | (next[n] & 1U) << 1) << (2 * n);
-    }
-    return static_cast<unsigned>(bits);
-  }
-};
-
-struct SignRows {
-  SignRows(const Frame& frame, const BitPlanes& planes, std::int64_t p, std::int64_t r) {
-    for (unsigned n = 0; n < 4; ++n) {
-      rows[n] = planes.inside.data() + frame.row(p + (n & 1U), r + (n >> 1U)) * frame.words;
-    }
-  }
-  HWY_INLINE CellSigns word(std::size_t w) const {
-    CellSigns signs;
-    for (unsigned n = 0; n < 4; ++n) {
-      signs.word[n] = rows[n][w];
-      signs.next[n] = rows[n][w + 1];
-    }
-    return signs;
-  }
-  std::array<const std::uint64_t*, 4> rows;
-};
+// The two signs at k and k + 1.
+HWY_INLINE unsigned pair_at(const std::uint64_t* row, std::uint32_t k) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, reinterpret_cast<const unsigned char*>(row) + (k >> 3), sizeof(bits));
+  return bits >> (k & 7U) & 3U;
+}
 
 std::uint64_t count_plane(const Frame& frame, const BitPlanes& planes, const CaseLookup& cases,
-                          std::int64_t p, const ActiveCells& here, std::vector<SlowCell>& slow) {
+                          std::int64_t p, ActiveCells& here, std::vector<SlowCell>& slow) {
   std::uint64_t count = 0;
   for (std::int64_t r = here.from; r < here.to; ++r) {
-    if (here.any[static_cast<std::size_t>(r)] == 0) continue;
-    const SignRows rows(frame, planes, p, r);
-    const std::uint64_t* const words = here.words.data() + static_cast<std::size_t>(r) * frame.words;
-    for (std::size_t w = 0; w < frame.words; ++w) {
-      std::uint64_t active = words[w];
-      if (active == 0) continue;
-      const CellSigns signs = rows.word(w);
-      for (; active != 0; active &= active - 1) {
-        const auto k = static_cast<unsigned>(std::countr_zero(active));
-        const unsigned bits = signs.at(k);
-        const std::uint8_t triangles = cases.lanes[bits][kLanes - 1];
-        if (triangles != kSlow) {
-          count += triangles;
-        } else {
-          count +=
-              count_slow_cell(frame, p, r, static_cast<std::int64_t>(64 * w + k), cases.signs[bits], slow);
-        }
-      }
+    const std::uint64_t* const rows[4] = {planes.inside(p, r), planes.inside(p + 1, r),
+                                          planes.inside(p, r + 1), planes.inside(p + 1, r + 1)};
+    const std::size_t end = here.first[static_cast<std::size_t>(r) + 1];
+    for (std::size_t n = here.first[static_cast<std::size_t>(r)]; n < end; ++n) {
+      const std::uint32_t k = here.cells[n];
+      const unsigned bits = pair_at(rows[0], k) | pair_at(rows[1], k) << 2 | pair_at(rows[2], k) << 4 |
+                            pair_at(rows[3], k) << 6;
+      here.bits[n] = static_cast<std::uint8_t>(bits);
+      const std::uint8_t triangles = cases.lanes[bits][kLanes - 1];
+      count += HWY_LIKELY(triangles != kSlow) ? triangles
+                                              : count_slow_cell(frame, p, r, k, cases.signs[bits], slow);
     }
   }
   return count;
 }
 
-// The vertices of the cells of one word, in the lanes of CaseLookup (the centre's is left to others).
+// The masks of the words of a cell's four rows of samples: lower and upper plane, row r and r + 1.
+struct CellWords {
+  const WordMasks* lower_0;
+  const WordMasks* lower_1;
+  const WordMasks* upper_0;
+  const WordMasks* upper_1;
+};
+
 #if HWY_TARGET == HWY_AVX3_DL
-class WordIds {
- public:
-  WordIds(const std::uint64_t* masks, const std::uint32_t* firsts) : masks_(hn::Load(kWide, masks)) {
-    const auto first = hn::Load(kHalf, firsts);
-    firsts_ = hn::Combine(kNarrow, first, first);
-  }
-  HWY_INLINE void write(unsigned k, const std::array<std::uint8_t, kLanes>& lanes,
-                        TriangleWriter& writer) const {
-    const auto places = hn::PromoteTo(kNarrow, hn::Load(hn::Rebind<std::uint8_t, Narrow>(), lanes.data()));
-    const auto corners =
-        hn::TableLookupLanes(at(k), hn::IndicesFromVec(kNarrow, hn::And(places, hn::Set(kNarrow, 15))));
-    const std::size_t count = 3 * std::size_t{lanes[kLanes - 1]};
-    if (writer.end - writer.at >= kLanes) {
-      hn::StoreU(corners, kNarrow, writer.at);  // what is too much is written over by the next cell
-    } else {
-      hn::BlendedStore(corners, hn::FirstN(kNarrow, count), kNarrow, writer.at);
-    }
-    writer.at += count;
-  }
-  HWY_INLINE void store(unsigned k, CellIds& ids) const { hn::StoreU(at(k), kNarrow, ids.data()); }
+using Narrow = hn::ScalableTag<std::uint32_t>;
+using Wide = hn::ScalableTag<std::uint64_t>;
+static_assert(hn::MaxLanes(Narrow()) == kLanes);
 
- private:
-  using Narrow = hn::ScalableTag<std::uint32_t>;
-  using Wide = hn::ScalableTag<std::uint64_t>;
-  static constexpr Narrow kNarrow{};
-  static constexpr hn::Half<Narrow> kHalf{};
-  static constexpr Wide kWide{};
-  static_assert(hn::MaxLanes(Narrow()) == kLanes);
+// Eight of the lanes {lower_0, lower_1} and {upper_0, upper_1}: those of the first but 3, 5 and 7, which are
+// 1, 2 and 6 of the second.
+template <class D, class T>
+HWY_INLINE hn::Vec<D> merged(D d, const T* lower_0, const T* lower_1, const T* upper_0, const T* upper_1) {
+  const hn::Half<D> half;
+  alignas(64) static constexpr T kFrom[8] = {0, 0, 0, 1, 0, 2, 0, 6};
+  const auto from = hn::Load(d, kFrom);
+  const auto lower = hn::Combine(d, hn::LoadU(half, lower_1), hn::LoadU(half, lower_0));
+  const auto upper = hn::Combine(d, hn::LoadU(half, upper_1), hn::LoadU(half, upper_0));
+  return hn::IfThenElse(hn::Eq(from, hn::Zero(d)), lower,
+                        hn::TableLookupLanes(upper, hn::IndicesFromVec(d, from)));
+}
 
-  HWY_INLINE hn::Vec<Narrow> at(unsigned k) const {
-    const std::uint64_t below = (std::uint64_t{1} << k) - 1;
-    const auto lower = hn::PopulationCount(hn::And(masks_, hn::Set(kWide, below)));
-    const auto upper = hn::PopulationCount(hn::And(masks_, hn::Set(kWide, below << 1 | 1)));
-    return hn::Add(firsts_, hn::Combine(kNarrow, hn::TruncateTo(kHalf, upper), hn::TruncateTo(kHalf, lower)));
+// The vertices of a cell, in the lanes of CaseLookup, but for the centre.
+HWY_INLINE hn::Vec<Narrow> cell_ids(const CellWords& words, std::uint32_t k) {
+  const Narrow narrow;
+  const hn::Half<Narrow> half;
+  const Wide wide;
+  const auto masks = merged(wide, words.lower_0->edges.data(), words.lower_1->edges.data(),
+                            words.upper_0->edges.data(), words.upper_1->edges.data());
+  const auto firsts = merged(half, words.lower_0->first.data(), words.lower_1->first.data(),
+                             words.upper_0->first.data(), words.upper_1->first.data());
+  const std::uint64_t below = (std::uint64_t{1} << (k & 63U)) - 1;
+  const auto at_k = hn::PopulationCount(hn::And(masks, hn::Set(wide, below)));
+  const auto above_k = hn::PopulationCount(hn::And(masks, hn::Set(wide, below << 1 | 1)));
+  return hn::Combine(narrow, hn::Add(firsts, hn::TruncateTo(half, above_k)),
+                     hn::Add(firsts, hn::TruncateTo(half, at_k)));
+}
+HWY_INLINE void store_ids(const CellWords& words, std::uint32_t k, CellIds& ids) {
+  hn::StoreU(cell_ids(words, k), Narrow(), ids.data());
+}
+
+HWY_INLINE void write_cell(const CellWords& words, std::uint32_t k,
+                           const std::array<std::uint8_t, kLanes>& lanes, TriangleWriter& writer) {
+  const Narrow narrow;
+  const auto places = hn::PromoteTo(narrow, hn::Load(hn::Rebind<std::uint8_t, Narrow>(), lanes.data()));
+  const auto corners = hn::TableLookupLanes(cell_ids(words, k), hn::IndicesFromVec(narrow, places));
+  const std::size_t count = 3 * std::size_t{lanes[kLanes - 1]};
+  if (HWY_LIKELY(writer.end - writer.at >= kLanes)) {
+    hn::StoreU(corners, narrow, writer.at);  // what is too much is written over by the next cell
+  } else {
+    hn::BlendedStore(corners, hn::FirstN(narrow, count), narrow, writer.at);
   }
-  hn::Vec<Wide> masks_;
-  hn::Vec<Narrow> firsts_;
-};
+  writer.at += count;
+}
 #else
-class WordIds {
- public:
-  WordIds(const std::uint64_t* masks, const std::uint32_t* firsts) : masks_(masks), firsts_(firsts) {}
-  HWY_INLINE void write(unsigned k, const std::array<std::uint8_t, kLanes>& lanes,
-                        TriangleWriter& writer) const {
-    CellIds ids;
-    store(k, ids);
-    const std::size_t count = 3 * std::size_t{lanes[kLanes - 1]};
-    for (std::size_t n = 0; n < count; ++n) writer.at[n] = ids[lanes[n]];
-    writer.at += count;
-  }
-  HWY_INLINE void store(unsigned k, CellIds& ids) const {
-    const std::uint64_t below = (std::uint64_t{1} << k) - 1;
-    for (unsigned n = 0; n < 8; ++n) {
-      ids[n] = firsts_[n] + static_cast<std::uint32_t>(std::popcount(masks_[n] & below));
-    }
-    for (unsigned n = 0; n < 4; ++n) ids[8 + n] = ids[n] + static_cast<std::uint32_t>(masks_[n] >> k & 1U);
-  }
+HWY_INLINE void store_ids(const CellWords& words, std::uint32_t k, CellIds& ids) {
+  const std::uint64_t below = (std::uint64_t{1} << (k & 63U)) - 1;
+  const auto number = [&](const WordMasks* word, std::size_t axis) {
+    return word->first[axis] + static_cast<std::uint32_t>(std::popcount(word->edges[axis] & below));
+  };
+  const auto above = [&](const WordMasks* word, std::size_t axis) {
+    return static_cast<std::uint32_t>(word->edges[axis] >> (k & 63U) & 1U);
+  };
+  ids[0] = number(words.lower_0, 0);
+  ids[1] = number(words.lower_0, 1);
+  ids[2] = number(words.lower_0, 2);
+  ids[3] = number(words.upper_0, 1);
+  ids[4] = number(words.lower_1, 0);
+  ids[5] = number(words.upper_0, 2);
+  ids[6] = number(words.lower_1, 2);
+  ids[7] = number(words.upper_1, 2);
+  ids[8] = ids[0] + above(words.lower_0, 0);
+  ids[9] = ids[1] + above(words.lower_0, 1);
+  ids[11] = ids[3] + above(words.upper_0, 1);
+  ids[12] = ids[4] + above(words.lower_1, 0);
+}
 
- private:
-  const std::uint64_t* masks_;
-  const std::uint32_t* firsts_;
-};
+HWY_INLINE void write_cell(const CellWords& words, std::uint32_t k,
+                           const std::array<std::uint8_t, kLanes>& lanes, TriangleWriter& writer) {
+  CellIds ids;
+  store_ids(words, k, ids);
+  const std::size_t count = 3 * std::size_t{lanes[kLanes - 1]};
+  for (std::size_t n = 0; n < count; ++n) writer.at[n] = ids[lanes[n]];
+  writer.at += count;
+}
 #endif
 
-void write_plane(const Frame& frame, const BitPlanes& planes, const CaseLookup& cases, const PlaneMasks& here,
-                 const PlaneMasks& next, std::uint64_t first, std::uint64_t* HWY_RESTRICT row_first,
-                 TriangleWriter& writer) {
+void write_plane(const Frame& frame, const CaseLookup& cases, const ActiveCells& cells,
+                 const PlaneMasks& lower, const PlaneMasks& upper, std::uint64_t first,
+                 std::uint64_t* HWY_RESTRICT row_first, TriangleWriter& writer) {
   const std::uint32_t* const start = writer.at;
-  std::fill(row_first, row_first + std::min(here.from, frame.cell_rows), first);
-  for (std::int64_t r = here.from; r < std::min(here.to, frame.cell_rows); ++r) {
+  const std::int64_t from = std::min(cells.from, frame.cell_rows);
+  std::fill(row_first, row_first + from, first);
+  for (std::int64_t r = from; r < cells.to; ++r) {
     row_first[r] = first + static_cast<std::uint64_t>(writer.at - start) / 3;
     const auto row = static_cast<std::size_t>(r);
-    if (!here.counts[row].any) continue;
-    std::uint32_t centre = here.counts[row].first_centre;
-    const SignRows rows(frame, planes, here.p, r);
-    const WordMasks* const here_0 = here.words.data() + row * frame.words;
-    const WordMasks* const here_1 = here_0 + frame.words;
-    const WordMasks* const next_0 = next.words.data() + row * frame.words;
-    const WordMasks* const next_1 = next_0 + frame.words;
-    for (std::size_t w = 0; w < frame.words; ++w) {
-      std::uint64_t active = here_0[w].cells;
-      if (active == 0) continue;
-      const CellSigns signs = rows.word(w);
-      alignas(64) const std::uint64_t masks[8] = {here_0[w].edges[0], here_1[w].edges[0], here_0[w].edges[1],
-                                                  next_0[w].edges[1], here_0[w].edges[2], next_0[w].edges[2],
-                                                  here_1[w].edges[2], next_1[w].edges[2]};
-      alignas(64) const std::uint32_t firsts[8] = {here_0[w].first[0], here_1[w].first[0], here_0[w].first[1],
-                                                   next_0[w].first[1], here_0[w].first[2], next_0[w].first[2],
-                                                   here_1[w].first[2], next_1[w].first[2]};
-      const WordIds ids(masks, firsts);
-      for (; active != 0; active &= active - 1) {
-        const auto k = static_cast<unsigned>(std::countr_zero(active));
-        const unsigned bits = signs.at(k);
-        const auto& lanes = cases.lanes[bits];
-        if (HWY_LIKELY(lanes[kLanes - 1] != kSlow)) {
-          ids.write(k, lanes, writer);
-        } else {
-          CellIds cell{};
-          ids.store(k, cell);
-          cell[kLaneOfEdge[kCentre]] = centre;
-          if (writer.slow->has_centre) ++centre;
-          write_slow_cell(cases.signs[bits], cell, writer);
-        }
+    std::uint32_t centre = lower.counts[row].first_centre;
+    const WordMasks* const lower_words = lower.words.data() + row * frame.words;
+    const WordMasks* const upper_words = upper.words.data() + row * frame.words;
+    for (std::size_t n = cells.first[row]; n < cells.first[row + 1]; ++n) {
+      const std::uint32_t k = cells.cells[n];
+      const std::size_t w = k >> 6;
+      const CellWords words{lower_words + w, lower_words + w + frame.words, upper_words + w,
+                            upper_words + w + frame.words};
+      const auto& lanes = cases.lanes[cells.bits[n]];
+      if (HWY_LIKELY(lanes[kLanes - 1] != kSlow)) {
+        write_cell(words, k, lanes, writer);
+      } else {
+        CellIds ids{};
+        store_ids(words, k, ids);
+        ids[kLaneOfEdge[kCentre]] = centre;
+        if (writer.slow->has_centre) ++centre;
+        write_slow_cell(cases.signs[cells.bits[n]], ids, writer);
       }
     }
   }
-  const std::int64_t after = std::min(std::max(here.to, here.from), frame.cell_rows);
-  std::fill(row_first + after, row_first + frame.cell_rows,
+  std::fill(row_first + std::max(cells.to, from), row_first + frame.cell_rows,
             first + static_cast<std::uint64_t>(writer.at - start) / 3);
 }
 
@@ -260,23 +237,28 @@ void write_slow_cell(unsigned signs, const CellIds& ids, TriangleWriter& writer)
 }
 
 std::uint64_t count_triangles(const Frame& frame, const BitPlanes& planes, const CaseLookup& cases,
-                              std::int64_t p, const ActiveCells& here, std::vector<SlowCell>& slow) {
+                              std::int64_t p, ActiveCells& here, std::vector<SlowCell>& slow) {
+  here.bits.resize(std::max(here.bits.size(), here.cells.size()));
   return HWY_DYNAMIC_DISPATCH(count_plane)(frame, planes, cases, p, here, slow);
 }
 
-void count_centres(std::span<const SlowCell> slow, PlaneMasks& into) {
+std::uint64_t count_centres(std::span<const SlowCell> slow, PlaneMasks& into) {
+  std::uint64_t count = 0;
   for (const SlowCell& cell : slow) {
-    if (cell.has_centre) ++into.counts[cell.r].centres;
+    if (!cell.has_centre) continue;
+    ++into.counts[cell.r].centres;
+    ++count;
   }
+  return count;
 }
 
-void write_triangles(const Frame& frame, const BitPlanes& planes, const CaseLookup& cases,
-                     const PlaneMasks& here, const PlaneMasks& next, std::span<const SlowCell> slow,
+void write_triangles(const Frame& frame, const CaseLookup& cases, const ActiveCells& cells,
+                     const PlaneMasks& lower, const PlaneMasks& upper, std::span<const SlowCell> slow,
                      std::uint64_t first, std::span<Triangle> into, std::uint64_t* row_first,
                      std::vector<CentreLoop>& centres) {
   auto* const at = reinterpret_cast<std::uint32_t*>(into.data());
   TriangleWriter writer{at, at + 3 * into.size(), slow.data(), &centres};
-  HWY_DYNAMIC_DISPATCH(write_plane)(frame, planes, cases, here, next, first, row_first, writer);
+  HWY_DYNAMIC_DISPATCH(write_plane)(frame, cases, cells, lower, upper, first, row_first, writer);
 }
 
 }  // namespace footwall::isosurface::detail

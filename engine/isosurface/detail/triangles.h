@@ -25,18 +25,18 @@ struct CentreLoop {
   std::array<std::uint32_t, 12> around{};
 };
 
-// Of the cells of plane p; slow cells are added.
+// Of the cells of plane p, whose corner bits are noted; slow cells are added.
 std::uint64_t count_triangles(const Frame& frame, const BitPlanes& planes, const CaseLookup& cases,
-                              std::int64_t p, const ActiveCells& here, std::vector<SlowCell>& slow);
+                              std::int64_t p, ActiveCells& here, std::vector<SlowCell>& slow);
 
-// Sets counts[].centres of the plane that the cells belong to.
-void count_centres(std::span<const SlowCell> slow, PlaneMasks& into);
+// Sets counts[].centres of the plane that the cells belong to; returns their sum.
+std::uint64_t count_centres(std::span<const SlowCell> slow, PlaneMasks& into);
 
-// Writes the triangles of the cells of plane here.p, number `first` and on, into `into`, which has exactly
-// room for them, and the first of each row, from cell row 0 on, into row_first. `next`: the plane after it.
-// The loops of centres are added.
-void write_triangles(const Frame& frame, const BitPlanes& planes, const CaseLookup& cases,
-                     const PlaneMasks& here, const PlaneMasks& next, std::span<const SlowCell> slow,
+// Writes the triangles of the counted cells between the planes of samples `lower` and `upper`, number `first`
+// and on, into `into`, which has exactly room for them, and the first of each row, from cell row 0 on, into
+// row_first. The loops of centres are added.
+void write_triangles(const Frame& frame, const CaseLookup& cases, const ActiveCells& cells,
+                     const PlaneMasks& lower, const PlaneMasks& upper, std::span<const SlowCell> slow,
                      std::uint64_t first, std::span<Triangle> into, std::uint64_t* row_first,
                      std::vector<CentreLoop>& centres);
 

@@ -7,7 +7,6 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "engine/isosurface/detail/vertex_arithmetic.h"
@@ -42,9 +41,7 @@ void list_plane(const Frame& frame, const PlaneMasks& here, const SlowCell* slow
       place += counts.edges[axis];
       auto first = row;
       for (std::size_t w = 0; w < frame.words; ++w, first += 64) {
-        for (std::uint64_t edges = words[w].edges[axis]; edges != 0; edges &= edges - 1) {
-          *offset++ = first + static_cast<std::int32_t>(std::countr_zero(edges));
-        }
+        if (words[w].edges[axis] != 0) offset = list_bits(words[w].edges[axis], first, offset);
       }
     }
     for (; slow != slow_end && slow->r == static_cast<std::uint32_t>(r); ++slow) {
@@ -260,9 +257,9 @@ void list_vertices(const Frame& frame, const PlaneMasks& here, std::span<const S
     const PlaneMasks::RowCounts& counts = here.counts[static_cast<std::size_t>(r)];
     if (counts.any) into.count += counts.edges[0] + counts.edges[1] + counts.edges[2] + counts.centres;
   }
-  if (into.offset.size() < into.count) {
-    into.offset.resize(into.count);
-    into.place.resize(into.count);
+  if (into.offset.size() < into.count + kListSlack) {
+    into.offset.resize(into.count + kListSlack);
+    into.place.resize(into.count + kListSlack);
   }
   HWY_DYNAMIC_DISPATCH(list_plane)(frame, here, slow.data(), slow.data() + slow.size(), into);
 }

@@ -141,7 +141,7 @@ TEST_F(IsosurfaceJobs, WorldCoordinatesAreTheSurveysAndWindingFollowsNormals) {
     EXPECT_LE(p[0][0], 1000 + 12.5 * 29);
     EXPECT_GE(p[0][1], 2000);
   }
-  EXPECT_GT(along, all * 9 / 10);  // rough fields turn quicker than their triangles
+  EXPECT_GT(along, all * 3 / 4);  // so rough a field turns quicker than its triangles
 }
 
 TEST_F(IsosurfaceJobs, TroubleIsTheSameErrorOnAllRanksAndLeavesNoFile) {
