@@ -118,7 +118,8 @@ DrawnIsosurfaces draw_isosurfaces(const project::Project& project,
   drawn.result_json =
       session::run_engine(options.launch, {{"render", job_file.string()}, job.result}, context);
   drawn.layer = render::SurfaceLayer::read(job.layer);
-  for (const nlohmann::json& each : nlohmann::json::parse(drawn.result_json).at("isosurfaces"))
+  const nlohmann::json result = nlohmann::json::parse(drawn.result_json);
+  for (const nlohmann::json& each : result.at("isosurfaces"))
     drawn.triangles.push_back(each.at("triangles").get<std::int64_t>());
   return drawn;
 }

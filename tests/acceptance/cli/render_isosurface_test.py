@@ -13,7 +13,8 @@ def digest(path):
 
 def floats_of_tiff(path):
     """(width, height, values) of a little-endian TIFF of one float32 strip."""
-    data = open(path, "rb").read()
+    with open(path, "rb") as file:
+        data = file.read()
     assert data[:4] == b"II*\0"
     at, = struct.unpack_from("<I", data, 4)
     count, = struct.unpack_from("<H", data, at)
