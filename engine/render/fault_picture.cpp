@@ -312,7 +312,7 @@ Composition compose(const FaultPicture& what, int width, int height) {
   }
   scene.legend.insert(scene.legend.end(), what.isosurfaces.begin(), what.isosurfaces.end());
   if (!what.isosurfaces.empty())
-    scene.legend_title = what.faults.empty() ? "Isosurfaces" : "Faults, isosurfaces";
+    scene.legend_title = what.faults.empty() ? what.isosurfaces_title : "Faults, isosurfaces";
   scene.orientation_axes = !what.isosurfaces.empty();
   scene.title = what.title;
   scene.subtitle = summary_of(frame, velocity);

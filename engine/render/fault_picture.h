@@ -75,6 +75,7 @@ struct FaultPicture {
   SectionStyle section_style;
   // Drawn elsewhere through the same camera (surface_layer.h): here they only have their legend.
   std::vector<LegendEntry> isosurfaces;
+  std::string isosurfaces_title = "Isosurfaces";  // of the legend where there are no faults
   View view;
   std::string title;  // usually the project's name; may be empty
   bool mesh_edges = true;

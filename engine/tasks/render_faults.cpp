@@ -192,8 +192,14 @@ Rendered render_faults(const project::Project& project, const RenderOptions& opt
     picture.section_style.title = volume.name;
   }
   const std::vector<WantedIsosurface> wanted = isosurfaces_from(project, options.isosurfaces);
+  const bool wanted_of_one_volume = std::all_of(
+      wanted.begin(), wanted.end(),
+      [&](const WantedIsosurface& each) { return each.volume.name == wanted.front().volume.name; });
+  // In a legend of one volume its name is the title.
+  if (!wanted.empty() && wanted_of_one_volume) picture.isosurfaces_title = wanted.front().volume.name;
   for (const WantedIsosurface& each : wanted) {
-    picture.isosurfaces.push_back({each.name, each.colour});
+    const bool values_do = wanted_of_one_volume && picture.faults.empty();
+    picture.isosurfaces.push_back({values_do ? text::shortest(each.value) : each.name, each.colour});
     done.isosurfaces.push_back(each.name);
   }
   check_size(options);
