@@ -113,6 +113,14 @@ class BenchRender(FootwallTest):
                "--repeat", 1)
         pictures = {self.footwall(*raw, "--ranks", ranks)["picture"] for ranks in (1, 3)}
         self.assertEqual(len(pictures), 1)
+        # What we write ourselves, text or binary, can be drawn.
+        project = self.synthetic()
+        for suffix in ("ply", "stl"):
+            out = f"s.{suffix}"
+            written = self.footwall("isosurface", project, "--value", "0.5", "--out", out)
+            drawn = self.footwall("bench", "render", "--mesh", out, "--size", "64x64", "--ranks", 2, "--repeat", 1)
+            self.assertEqual(drawn["triangles"], written["triangles"])
+            self.assertGreater(drawn["pixels"], 200)
         with open(self.path("two.ply"), "w") as file:
             file.write("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
                        "element face 2\nproperty list uchar int vertex_indices\nend_header\n"

@@ -1,7 +1,8 @@
 // VTK's OpenGL renderer (llvmpipe where there is no graphics card) against footwall::render on the same mesh,
 // in turns in one run:
 //
-//   xvfb-run render_vtk [--mesh F.ply|F.stl | --sphere TRIANGLES] [--size WxH] [--threads T] [--repeat R]
+//   xvfb-run render_vtk [--mesh F.ply|F.stl | --sphere TRIANGLES] [--width W] [--height H] [--threads T]
+//   [--repeat R]
 //
 // Each frame has another azimuth and ends with RGBA and depth in memory. One sample a pixel, Gouraud, a
 // headlight, on both sides. LP_NUM_THREADS limits llvmpipe's threads. Vertices are in the card's (or
@@ -144,7 +145,7 @@ class Ours {
     const render::LitSurface surface{render::hex(0xffffff), {}, positions_, normals_, triangles_,
                                      std::span(&run, 1)};
     const render::Camera camera =
-        render::Camera::look(azimuth_, 10, 1, bounds_, static_cast<double>(width_) / height_, true);
+        render::Camera::look(azimuth_, 10, kZoom, bounds_, static_cast<double>(width_) / height_, true);
     frame_.project(std::span(&surface, 1), camera, width_, height_, threads_);
     window_.clear();
     frame_.rasterize(window_, threads_);
@@ -156,6 +157,9 @@ class Ours {
   }
 
  private:
+  // So that both show a sphere as large.
+  static constexpr double kZoom = 0.776;
+
   int width_;
   int height_;
   int threads_;
