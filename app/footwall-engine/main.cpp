@@ -1,5 +1,5 @@
-// The MPI program: runs one batch job or scripted workload, or makes one attribute volume or isosurface, on
-// all ranks, or checks that they work together. Exit 0 done, 1 failed, 2 wrong usage, 75 told to make room
+// The MPI program: runs one batch job or scripted workload, makes one attribute volume, isosurface or picture,
+// on all ranks, or checks that they work together. Exit 0 done, 1 failed, 2 wrong usage, 75 told to make room
 // (SIGTERM; run it again and it goes on), 130 cancelled; a failure is printed once.
 #include <signal.h>
 #include <sys/prctl.h>
@@ -9,6 +9,7 @@
 #include "app/footwall-engine/batch_command.h"
 #include "app/footwall-engine/check_command.h"
 #include "app/footwall-engine/isosurface_command.h"
+#include "app/footwall-engine/render_command.h"
 #include "app/footwall-engine/running_job.h"
 #include "app/footwall-engine/workload_command.h"
 #include "engine/comm/environment.h"
@@ -63,6 +64,7 @@ int run(const Communicator& world, int argc, char** argv) {
       app.add_subcommand("attribute", "makes an attribute volume; footwall attribute starts it");
   attribute->add_option("JOB", job, "what to make, JSON")->required();
   footwall::app::IsosurfaceCommand isosurface(app);
+  const footwall::app::RenderCommand render(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -78,6 +80,8 @@ int run(const Communicator& world, int argc, char** argv) {
     footwall::session::run_attribute(world, job, footwall::app::running_job(world));
   } else if (isosurface.parsed()) {
     isosurface.run(world);
+  } else if (render.parsed()) {
+    render.run(world);
   } else {
     footwall::app::batch(world, job, options);
   }

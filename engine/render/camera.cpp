@@ -10,8 +10,8 @@
 namespace footwall::render {
 namespace {
 
-constexpr double kHalfFieldDegrees =
-    14;  // of the cone around the box; wider looks dramatic and distorts dips
+// Of the cone around the box; wider looks dramatic and distorts dips.
+constexpr double kHalfFieldDegrees = Camera::kConeDegrees / 2;
 
 void check(bool possible, const char* what, double value, const char* hint) {
   if (!possible) throw Error(ErrorCode::kUsage, fmt::format("a camera's {} cannot be {}", what, value), hint);
@@ -71,8 +71,50 @@ Camera Camera::look(double azimuth_degrees, double elevation_degrees, double zoo
   const double middle[2] = {(least[0] + most[0]) / 2, (least[1] + most[1]) / 2};
 
   // The depth range has room for surfaces that stick out of the box.
-  const double nearest = distance - 2 * radius;
-  const double farthest = distance + 3 * radius;
+  camera.set_projection(
+      {scale, aspect, {middle[0], middle[1]}, distance - 2 * radius, distance + 3 * radius});
+  return camera;
+}
+
+Camera Camera::look_at(const Vec3& eye, const Vec3& target, const Vec3& up, std::span<const Vec3> corners,
+                       double aspect, bool perspective) {
+  check(aspect > 0 && std::isfinite(aspect), "width / height", aspect, "give a width and height above 0");
+  const Vec3 view = target - eye;
+  const double far = length(view);
+  const Vec3 across = cross(view, up);
+  const double size = length(across);
+  if (!std::isfinite(far) || !std::isfinite(size) || !(far > 0) || !(size > 1e-9 * far * length(up))) {
+    throw Error(ErrorCode::kUsage, "a camera cannot look there",
+                "eye and target are two places in metres, and up must not lie along the view");
+  }
+  Camera camera;
+  camera.perspective = perspective;
+  camera.forward = view * (1 / far);
+  camera.right = across * (1 / size);
+  camera.up = cross(camera.right, camera.forward);
+  camera.eye = eye;
+  const double half = std::tan(kHalfFieldDegrees * std::numbers::pi / 180);
+  const double scale = 1 / (perspective ? half : half * far) * std::min(1.0, aspect);
+  double nearest = INFINITY;
+  double farthest = far;
+  double size_of_box = 1e-6;
+  for (const Vec3& p : corners) {
+    const double along = dot(p - eye, camera.forward);
+    nearest = std::min(nearest, along);
+    farthest = std::max(farthest, along);
+    size_of_box = std::max(size_of_box, length(p - corners.front()));
+  }
+  farthest += size_of_box;
+  nearest -= size_of_box / 2;
+  // In perspective the depth's precision near the far end is lost when the range begins too near the eye.
+  if (perspective) nearest = std::max(nearest, farthest * 1e-3);
+  camera.set_projection({scale, aspect, {0, 0}, nearest, farthest});
+  return camera;
+}
+
+void Camera::set_projection(const Projection& how) {
+  Camera& camera = *this;
+  const auto& [scale, aspect, middle, nearest, farthest] = how;
   const auto row = [&](const Vec3& axis, double constant, int at) {
     const std::array<double, 4> values{axis.x, axis.y, axis.z, constant - dot(axis, camera.eye)};
     std::copy(values.begin(), values.end(), camera.view_projection.begin() + 4 * at);
@@ -89,7 +131,6 @@ Camera Camera::look(double azimuth_degrees, double elevation_degrees, double zoo
     row(camera.forward * (2 / (farthest - nearest)), -(farthest + nearest) / (farthest - nearest), 2);
     row({0, 0, 0}, 1, 3);
   }
-  return camera;
 }
 
 Camera Camera::within(double x0, double x1, double y0, double y1) const {

@@ -245,10 +245,21 @@ double chosen_azimuth(const FaultPicture& what, const SceneFrame& frame) {
 
 // What title and panels leave of the picture. In tiny pictures they overlap the box rather than squeeze it.
 Room free_room(const FaultPicture& what, int width, int height, double scale) {
-  const bool panels = !what.faults.empty() || !what.sections.empty();
+  const bool panels = !what.faults.empty() || !what.sections.empty() || !what.isosurfaces.empty();
   const double right = std::min((panels ? kPanelWidth + 12 : 20) * scale, 0.5 * width);
   return {std::min(20 * scale, 0.1 * width), std::min(98 * scale, 0.25 * height), width - right,
           height - std::min(18 * scale, 0.1 * height)};
+}
+
+Camera camera_of(const FaultPicture& what, const SceneFrame& frame, int width, int height, double scale) {
+  if (what.view.look_at) {
+    const auto& [eye, target, up] = *what.view.look_at;
+    return Camera::look_at(eye, target, up, frame.corners(), static_cast<double>(width) / height,
+                           what.view.perspective);
+  }
+  const double azimuth = what.view.azimuth_degrees ? *what.view.azimuth_degrees : chosen_azimuth(what, frame);
+  return fitted_camera(frame, {azimuth, what.view.elevation_degrees, what.view.perspective}, what.view.zoom,
+                       free_room(what, width, height, scale), width, height, scale);
 }
 
 }  // namespace
@@ -270,14 +281,11 @@ Composition compose(const FaultPicture& what, int width, int height) {
   const SceneFrame frame(what.geometry, exaggeration, velocity);
   check(what);
 
-  Composition made;
+  Composition made{{}, {}, frame};
   Scene& scene = made.scene;
   scene.text_scale = std::max(0.4, std::min(width / 1600.0, height / 1000.0));
   const bool coloured = std::any_of(what.faults.begin(), what.faults.end(), has_values);
-  const double azimuth = what.view.azimuth_degrees ? *what.view.azimuth_degrees : chosen_azimuth(what, frame);
-  made.camera =
-      fitted_camera(frame, {azimuth, what.view.elevation_degrees, what.view.perspective}, what.view.zoom,
-                    free_room(what, width, height, scene.text_scale), width, height, scene.text_scale);
+  made.camera = camera_of(what, frame, width, height, scene.text_scale);
 
   const ColourMap& map =
       what.statistic.colours != nullptr ? *what.statistic.colours : ColourMap::named("viridis");
@@ -302,6 +310,10 @@ Composition compose(const FaultPicture& what, int width, int height) {
     scene.bars.push_back({what.statistic.title, joined({what.statistic.unit, what.statistic.note}, "\n"),
                           &map, range, undefined});
   }
+  scene.legend.insert(scene.legend.end(), what.isosurfaces.begin(), what.isosurfaces.end());
+  if (!what.isosurfaces.empty())
+    scene.legend_title = what.faults.empty() ? what.isosurfaces_title : "Faults, isosurfaces";
+  scene.orientation_axes = !what.isosurfaces.empty();
   scene.title = what.title;
   scene.subtitle = summary_of(frame, velocity);
   return made;

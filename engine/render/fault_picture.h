@@ -8,6 +8,7 @@
 
 #include "engine/render/colour_map.h"
 #include "engine/render/picture.h"
+#include "engine/render/scene_frame.h"
 #include "storage/survey/geometry.h"
 
 namespace footwall::render {
@@ -49,13 +50,21 @@ struct SectionStyle {
   std::optional<Range> range;  // none: symmetric about 0, 99th percentile of |value| over all sections
 };
 
+// From a place to another, scene frame in metres; `up` comes out upwards.
+struct LookAt {
+  Vec3 eye;
+  Vec3 target;
+  Vec3 up{0, 0, 1};
+};
+
 struct View {
   std::optional<double> azimuth_degrees;  // 0 looks north, clockwise; none = chosen by best_azimuth
   double elevation_degrees = 25;
   double zoom = 1;  // 1 fits the box
   bool perspective = true;
-  double exaggeration = 0;  // of heights; 0 = chosen by SceneFrame::pleasing_exaggeration
-  double velocity = 0;      // m/s, for time surveys; 0 = not known, 1 ms is drawn as 1 m
+  std::optional<LookAt> look_at;  // then direction and zoom are not looked at
+  double exaggeration = 0;        // of heights; 0 = chosen by SceneFrame::pleasing_exaggeration
+  double velocity = 0;            // m/s, for time surveys; 0 = not known, 1 ms is drawn as 1 m
 };
 
 struct FaultPicture {
@@ -64,6 +73,9 @@ struct FaultPicture {
   ShownStatistic statistic;
   std::vector<ShownSection> sections;
   SectionStyle section_style;
+  // Drawn elsewhere through the same camera (surface_layer.h): here they only have their legend.
+  std::vector<LegendEntry> isosurfaces;
+  std::string isosurfaces_title = "Isosurfaces";  // of the legend where there are no faults
   View view;
   std::string title;  // usually the project's name; may be empty
   bool mesh_edges = true;
@@ -77,6 +89,7 @@ Rgba fault_colour(std::size_t n);
 struct Composition {
   Scene scene;
   Camera camera;
+  SceneFrame frame;
 };
 Composition compose(const FaultPicture& what, int width, int height);
 // compose() and render(). threads: 0 = all.

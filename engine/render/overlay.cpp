@@ -150,7 +150,7 @@ void draw_panels(Canvas& canvas, Typeface* typeface, const Scene& scene) {
   const double top = margin;
   draw_panel(canvas, x0, top, x1, top + 2 * pad + 24 * s + row * static_cast<double>(all ? shown : shown + 1),
              s);
-  writer.write(x0 + pad, top + pad + 15 * s, "Faults", 17, kText, true);
+  writer.write(x0 + pad, top + pad + 15 * s, scene.legend_title, 17, kText, true);
   for (std::size_t n = 0; n < shown; ++n) {
     const double y = top + pad + 28 * s + row * static_cast<double>(n);
     canvas.fill_rounded(x0 + pad, y + 5 * s, x0 + pad + 20 * s, y + 19 * s, 3 * s, scene.legend[n].colour);
@@ -201,6 +201,48 @@ void draw_north_arrow(Canvas& canvas, Typeface* typeface, const Scene& scene, co
   const Point name = at(0, 1.36);
   const double width = typeface->width("N", 18 * s, true);
   typeface->draw(canvas, name.x - width / 2, name.y + 6.5 * s, "N", 18 * s, kText, true, kShadow);
+}
+
+void draw_orientation_axes(Canvas& canvas, Typeface* typeface, const Scene& scene, const Camera& camera) {
+  const double s = scene.text_scale;
+  const Point middle{96 * s, canvas.height() - 92 * s};
+  const double size = 62 * s;
+  struct Axis {
+    Vec3 direction;
+    const char* name;
+    Rgba colour;
+  };
+  std::array<Axis, 3> axes{
+      {{{1, 0, 0}, "E", hex(0xf07f6f)}, {{0, 1, 0}, "N", hex(0x79d28d)}, {{0, 0, 1}, "Z", hex(0x6fb3f2)}}};
+  // Those that point away first.
+  std::stable_sort(axes.begin(), axes.end(), [&](const Axis& a, const Axis& b) {
+    return dot(a.direction, camera.forward) > dot(b.direction, camera.forward);
+  });
+  for (const Axis& axis : axes) {
+    const double across = dot(axis.direction, camera.right);
+    const double upwards = dot(axis.direction, camera.up);
+    const auto at = [&](double share) {
+      return Point{middle.x + across * size * share, middle.y - upwards * size * share};
+    };
+    const Point tip = at(1);
+    canvas.stroke(middle, tip, 5.5 * s, kShadow);
+    canvas.stroke(middle, tip, 3 * s, axis.colour);
+    const double seen = std::hypot(across, upwards);
+    if (seen > 0.15) {
+      const double x = across / seen * s;
+      const double y = -upwards / seen * s;
+      const Point head[] = {{tip.x + 11 * x, tip.y + 11 * y},
+                            {tip.x - 6 * x - 6 * y, tip.y - 6 * y + 6 * x},
+                            {tip.x - 6 * x + 6 * y, tip.y - 6 * y - 6 * x}};
+      canvas.fill_polygon(head, axis.colour);
+    }
+    if (typeface == nullptr) continue;
+    // Beside the tip, also where the axis points at the eye.
+    const double away = seen > 0.15 ? 24 * s / seen : 0;
+    const Point name{tip.x + across * away, tip.y - upwards * away};
+    const double width = typeface->width(axis.name, 17 * s, true);
+    typeface->draw(canvas, name.x - width / 2, name.y + 6 * s, axis.name, 17 * s, kText, true, kShadow);
+  }
 }
 
 }  // namespace footwall::render

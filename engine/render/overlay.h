@@ -21,6 +21,8 @@ void draw_labels(Canvas& canvas, Typeface& typeface, const Scene& scene, const C
 void draw_panels(Canvas& canvas, Typeface* typeface, const Scene& scene);
 void draw_title(Canvas& canvas, Typeface& typeface, const Scene& scene);
 void draw_north_arrow(Canvas& canvas, Typeface* typeface, const Scene& scene, const Camera& camera);
+// East, north and up as the camera sees them, named E, N and Z.
+void draw_orientation_axes(Canvas& canvas, Typeface* typeface, const Scene& scene, const Camera& camera);
 
 // The numbers beside a bar: equal steps from lo to hi, with a common power of ten taken out where they are
 // very large or small (10^exponent, a multiple of 3).

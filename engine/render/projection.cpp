@@ -87,14 +87,6 @@ ScreenVertex projected(const Vec4& clip, int width, int height) {
   return rounded(clip, width, height, 0);
 }
 
-void project(const Matrix4& view_projection, std::span<const Vec3f> positions, int width, int height,
-             std::span<ScreenVertex> to) {
-  require(to.size() == positions.size(), "one projected vertex per position");
-  for (std::size_t n = 0; n < positions.size(); ++n) {
-    to[n] = projected(transformed(view_projection, Vec3(positions[n])), width, height);
-  }
-}
-
 void rasterize_clip(const Vec4& a, const Vec4& b, const Vec4& c, PrimitiveId id, VisibilityBuffer& into) {
   const double guard_x = 2.0 * kGuardBand / into.width();
   const double guard_y = 2.0 * kGuardBand / into.height();

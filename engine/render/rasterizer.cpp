@@ -223,26 +223,6 @@ void draw_triangle(const ScreenVertex& a, const ScreenVertex& b, const ScreenVer
   }
 }
 
-void draw_triangles(const Matrix4& view_projection, std::span<const Vec3f> positions,
-                    std::span<const ScreenVertex> vertices, std::span<const TriangleIndices> triangles,
-                    PrimitiveId first_id, VisibilityBuffer& into) {
-  const auto position = [&](std::int32_t v) {
-    return transformed(view_projection, Vec3(positions[static_cast<std::size_t>(v)]));
-  };
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const TriangleIndices& corners = triangles[t];
-    const ScreenVertex& a = vertices[static_cast<std::size_t>(corners[0])];
-    const ScreenVertex& b = vertices[static_cast<std::size_t>(corners[1])];
-    const ScreenVertex& c = vertices[static_cast<std::size_t>(corners[2])];
-    const PrimitiveId id = first_id + static_cast<PrimitiveId>(t);
-    if ((a.outside | b.outside | c.outside) == 0) {
-      draw_triangle(a, b, c, id, into);
-    } else if ((a.outside & b.outside & c.outside) == 0) {
-      rasterize_clip(position(corners[0]), position(corners[1]), position(corners[2]), id, into);
-    }
-  }
-}
-
 }  // namespace
 }  // namespace footwall::render::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -252,19 +232,12 @@ namespace footwall::render {
 namespace {
 
 HWY_EXPORT(draw_triangle);
-HWY_EXPORT(draw_triangles);
 
 }  // namespace
 
 void rasterize_screen(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, PrimitiveId id,
                       VisibilityBuffer& into) {
   HWY_DYNAMIC_DISPATCH(draw_triangle)(a, b, c, id, into);
-}
-
-void rasterize(const Matrix4& view_projection, std::span<const Vec3f> positions,
-               std::span<const ScreenVertex> vertices, std::span<const TriangleIndices> triangles,
-               PrimitiveId first_id, VisibilityBuffer& into) {
-  HWY_DYNAMIC_DISPATCH(draw_triangles)(view_projection, positions, vertices, triangles, first_id, into);
 }
 
 }  // namespace footwall::render

@@ -35,9 +35,16 @@ inline constexpr std::uint32_t kNotFinite = 64;  // its triangles are skipped
 
 using TriangleIndices = std::array<std::int32_t, 3>;
 
+// The triangles from `first_triangle` to the next run's are the primitives first_id, first_id + 1, ...
+struct IdRun {
+  std::size_t first_triangle = 0;
+  PrimitiveId first_id = 0;
+  friend bool operator==(const IdRun&, const IdRun&) = default;
+};
+
 // Projects one position into a picture of width x height pixels.
 ScreenVertex projected(const Vec4& clip, int width, int height);
-// Projects all; `to` has the positions' size.
+// Projects all, the same bits as projected(); `to` has the positions' size.
 void project(const Matrix4& view_projection, std::span<const Vec3f> positions, int width, int height,
              std::span<ScreenVertex> to);
 
@@ -47,6 +54,14 @@ void project(const Matrix4& view_projection, std::span<const Vec3f> positions, i
 void rasterize(const Matrix4& view_projection, std::span<const Vec3f> positions,
                std::span<const ScreenVertex> vertices, std::span<const TriangleIndices> triangles,
                PrimitiveId first_id, VisibilityBuffer& into);
+// The triangles [begin, end) alone, numbered by `runs`, which ascend by first_triangle and begin with 0.
+struct TriangleRange {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+void rasterize(const Matrix4& view_projection, std::span<const Vec3f> positions,
+               std::span<const ScreenVertex> vertices, std::span<const TriangleIndices> triangles,
+               std::span<const IdRun> runs, const TriangleRange& range, VisibilityBuffer& into);
 // One triangle given in clip space.
 void rasterize_clip(const Vec4& a, const Vec4& b, const Vec4& c, PrimitiveId id, VisibilityBuffer& into);
 // One triangle that is projected already and needs no clipping (outside == 0 for all three).

@@ -81,10 +81,12 @@ struct Scene {
   std::vector<Label> labels;  // in the order of their importance
   std::vector<ColourBar> bars;
   std::vector<LegendEntry> legend;
+  std::string legend_title = "Faults";
   std::string title;
   std::string subtitle;
   bool north_arrow = true;
-  double text_scale = 1;  // of panels, title and arrow; 1 suits a picture of 1600 x 1000
+  bool orientation_axes = false;  // east, north and up in the lower left corner; instead of the arrow
+  double text_scale = 1;          // of panels, title and arrow; 1 suits a picture of 1600 x 1000
   Rgba background_top = hex(0x262b33);
   Rgba background_bottom = hex(0x14171b);
 };

@@ -44,6 +44,11 @@ class VisibilityBuffer {
         static_cast<std::size_t>(y - first_row_) * static_cast<std::size_t>(width_),
         static_cast<std::size_t>(width_));
   }
+  std::span<const Visible> row(int y) const {
+    return std::span(pixels_).subspan(
+        static_cast<std::size_t>(y - first_row_) * static_cast<std::size_t>(width_),
+        static_cast<std::size_t>(width_));
+  }
   Visible at(int x, int y) const {
     return pixels_[static_cast<std::size_t>(y - first_row_) * static_cast<std::size_t>(width_) +
                    static_cast<std::size_t>(x)];

@@ -8,11 +8,13 @@
 #include "engine/render/fault_picture.h"
 #include "engine/tasks/face_tables.h"
 #include "engine/tasks/open_volume.h"
+#include "engine/tasks/render_camera.h"
 #include "engine/tasks/statistics.h"
 #include "engine/tasks/triangulate.h"
 #include "storage/base/error.h"
 #include "storage/base/text.h"
 #include "storage/formats/png.h"
+#include "storage/formats/tiff.h"
 #include "storage/volume/volume_reader.h"
 
 namespace footwall::tasks {
@@ -155,6 +157,16 @@ void add_faults(const project::Project& project, const RenderOptions& options, r
   if (faces.run) picture.statistic.note = fmt::format("{}, volume {}", faces.run->name, faces.run->volume);
 }
 
+// Before the engine is started for a picture that nobody could draw.
+void check_size(const RenderOptions& options) {
+  if (options.width >= 1 && options.height >= 1 && options.width <= render::kLargestPicture &&
+      options.height <= render::kLargestPicture)
+    return;
+  throw Error(ErrorCode::kUsage,
+              fmt::format("a picture of {} x {} pixels cannot be drawn", options.width, options.height),
+              fmt::format("give 1 to {} pixels each way", render::kLargestPicture));
+}
+
 }  // namespace
 
 Rendered render_faults(const project::Project& project, const RenderOptions& options,
@@ -162,8 +174,12 @@ Rendered render_faults(const project::Project& project, const RenderOptions& opt
   render::FaultPicture picture;
   picture.geometry = required_survey(project, "a picture");
   picture.title = project.path().stem().string();
-  picture.view = {options.azimuth,      options.elevation, options.zoom, true,
-                  options.exaggeration, options.velocity};
+  picture.view.azimuth_degrees = options.azimuth;
+  picture.view.elevation_degrees = options.elevation;
+  picture.view.zoom = options.zoom;
+  picture.view.exaggeration = options.exaggeration;
+  picture.view.velocity = options.velocity;
+  if (!options.camera.empty()) take_camera(options.camera, picture.view);
   Rendered done;
   job.report(0.05, "read");
   if (options.faults) add_faults(project, options, picture, done);
@@ -175,10 +191,37 @@ Rendered render_faults(const project::Project& project, const RenderOptions& opt
     }
     picture.section_style.title = volume.name;
   }
-  job.report(0.3, "draw");
-  const render::Picture drawn = render::draw(picture, options.width, options.height, options.threads);
+  const std::vector<WantedIsosurface> wanted = isosurfaces_from(project, options.isosurfaces);
+  const bool wanted_of_one_volume = std::all_of(
+      wanted.begin(), wanted.end(),
+      [&](const WantedIsosurface& each) { return each.volume.name == wanted.front().volume.name; });
+  // In a legend of one volume its name is the title.
+  if (!wanted.empty() && wanted_of_one_volume) picture.isosurfaces_title = wanted.front().volume.name;
+  for (const WantedIsosurface& each : wanted) {
+    const bool values_do = wanted_of_one_volume && picture.faults.empty();
+    picture.isosurfaces.push_back({values_do ? text::shortest(each.value) : each.name, each.colour});
+    done.isosurfaces.push_back(each.name);
+  }
+  check_size(options);
+  const render::Composition made = render::compose(picture, options.width, options.height);
+  DrawnIsosurfaces surfaces;
+  if (!wanted.empty()) {
+    surfaces = draw_isosurfaces(project, wanted, made.frame, made.camera, options.width * render::kSamples,
+                                options.height * render::kSamples, options.drawing, job.part(0.2, 0.7));
+    done.triangles = surfaces.triangles;
+    done.engine_json = surfaces.result_json;
+    for (std::size_t n = 0; n < wanted.size(); ++n) {
+      if (surfaces.triangles[n] > 0) continue;
+      done.notices.push_back(fmt::format("{} has no triangles: the volume's values are {:.6g} to {:.6g}",
+                                         wanted[n].name, wanted[n].volume.min, wanted[n].volume.max));
+    }
+  }
+  job.report(0.7, "draw");
+  const render::Picture drawn = render::render(made.scene, made.camera, options.width, options.height,
+                                               options.threads, wanted.empty() ? nullptr : &surfaces.layer);
   job.report(0.9, "write");
   formats::write_png(out, drawn.width, drawn.height, drawn.rgba);
+  if (!options.depth.empty()) formats::write_tiff(options.depth, drawn.width, drawn.height, drawn.depth);
   return done;
 }
 

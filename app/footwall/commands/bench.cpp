@@ -3,6 +3,7 @@
 #include "app/footwall/commands/bench_extract.h"
 #include "app/footwall/commands/bench_isosurface.h"
 #include "app/footwall/commands/bench_quality.h"
+#include "app/footwall/commands/bench_render.h"
 #include "app/footwall/commands/bench_topology.h"
 #include "app/footwall/commands/commands.h"
 
@@ -14,6 +15,7 @@ void add_bench(console::Program& program) {
   add_bench_extract(program, group);
   add_bench_isosurface(program, group);
   add_bench_quality(program, group);
+  add_bench_render(program, group);
   add_bench_topology(program, group);
   add_bench_voxelize(program, group);
 }

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/footwall/commands/commands.h"
+#include "app/footwall/commands/launch_options.h"
 #include "app/footwall/commands/options.h"
 #include "engine/tasks/render_faults.h"
 #include "storage/base/log.h"
@@ -11,15 +12,19 @@ namespace footwall::commands {
 namespace {
 
 struct Options {
-  std::string project, out, size = "1600x1000", range;
+  std::string project, out, size = "1600x1000", range, depth;
   bool faults = false;
+  EngineOptions engine;
   tasks::RenderOptions how;
 };
 
 console::Output run(Options& options, const console::Console& console) {
-  if (!options.faults && options.how.sections.empty()) {
-    throw Error(ErrorCode::kUsage, "nothing to draw", "add --faults, --section, or both");
+  if (!options.faults && options.how.sections.empty() && options.how.isosurfaces.empty()) {
+    throw Error(ErrorCode::kUsage, "nothing to draw", "add --faults, --section or --isosurface");
   }
+  if (options.how.threads > 0) options.engine.threads = options.how.threads;
+  options.how.drawing.launch = options.engine.launch();
+  options.how.depth = options.depth;
   const auto [width, height] = picture_size_from(options.size);
   options.how.faults = options.faults;
   options.how.width = width;
@@ -28,22 +33,36 @@ console::Output run(Options& options, const console::Console& console) {
   const project::Project project = open_project(options.project, project::OpenMode::kRead);
   const tasks::Rendered done = tasks::render_faults(project, options.how, options.out, console.job());
   for (const std::string& notice : done.notices) log::warn(notice);
-  return {{{"out", options.out}, {"size", {width, height}}, {"faces", done.faces}, {"notices", done.notices}},
-          fmt::format("written {}: {} faces, {} x {} pixels", options.out, done.faces, width, height)};
+  console::Output output{
+      {{"out", options.out}, {"size", {width, height}}, {"faces", done.faces}, {"notices", done.notices}},
+      fmt::format("written {}: {} faces, {} x {} pixels", options.out, done.faces, width, height)};
+  for (std::size_t n = 0; n < done.isosurfaces.size(); ++n) {
+    output.json["isosurfaces"].push_back({{"name", done.isosurfaces[n]}, {"triangles", done.triangles[n]}});
+    output.text += fmt::format("\n{}: {} triangles", done.isosurfaces[n], done.triangles[n]);
+  }
+  if (!done.engine_json.empty()) {
+    const console::Json engine = console::Json::parse(done.engine_json);
+    for (const char* key : {"ranks", "seconds", "merged_pixels", "merged_bytes", "bytes_sent", "messages"})
+      output.json[key] = engine.at(key);
+  }
+  return output;
 }
 
 }  // namespace
 
 void add_render(console::Program& program) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add(nullptr, "render", "Draw faults coloured by a statistic, and sections",
-                                  [options](console::Console& console) { return run(*options, console); });
+  CLI::App* command =
+      program.add(nullptr, "render", "Draw faults coloured by a statistic, sections and isosurfaces",
+                  [options](console::Console& console) { return run(*options, console); });
   tasks::RenderOptions& how = options->how;
   command->add_option("project", options->project, "The project, NAME.footwall")->required();
   command->add_option("--out", options->out, "The PNG file to write")->required();
   command->add_flag("--faults", options->faults, "Draw the fault meshes");
   command->add_option("--section", how.sections,
                       "inline=N, crossline=N or z=VALUE; N may be first, middle or last; may be repeated");
+  command->add_option("--isosurface", how.isosurfaces,
+                      "VOLUME=VALUE or VOLUME=VALUE,COLOUR (a name or #rrggbb); may be repeated");
   command->add_option("--statistic", how.statistic, "What colours the faults (default variance)");
   command->add_option("--run", how.run, "Statistics of this run (default: the last)");
   command->add_option("--volume", how.volume, "The volume of the sections (default: the first)");
@@ -52,18 +71,34 @@ void add_render(console::Program& program) {
   command->add_option("--colours", how.colours,
                       "Colour map: viridis, cividis, grey, red-white-blue, seismic");
   command->add_option("--size", options->size, "Pixels (default 1600x1000)");
-  command->add_option(
+  CLI::Option* azimuth = command->add_option(
       "--azimuth", how.azimuth,
       "Direction looked in, degrees clockwise from north (default: that of twelve, 30, 45 and "
       "60 degrees to the survey's lines, which shows most of the faults and sections)");
-  command->add_option("--elevation", how.elevation, "Degrees above the horizon (default 25)");
-  command->add_option("--zoom", how.zoom, "1 fits the survey's box (default 1)");
+  CLI::Option* elevation =
+      command->add_option("--elevation", how.elevation, "Degrees above the horizon (default 25)");
+  CLI::Option* zoom = command->add_option("--zoom", how.zoom, "1 fits the survey's box (default 1)");
+  command
+      ->add_option("--camera", how.camera,
+                   "azimuth,elevation,zoom, or eye;target;up as x,y,z each, metres east, north and up from "
+                   "the survey's centre")
+      ->excludes(azimuth)
+      ->excludes(elevation)
+      ->excludes(zoom);
   command->add_option(
       "--exaggeration", how.exaggeration,
       "Vertical exaggeration (default: a round one that makes the box about 0.6 as high as long)");
   command->add_option("--velocity", how.velocity,
                       "m/s, for heights in a time survey (default: 1 ms is drawn as 1 m)");
-  command->add_option("--threads", how.threads, "Threads (default: all)");
+  command->add_option("--depth", options->depth,
+                      "Also write the depth, 0 near to 1 background, to this TIFF file");
+  command->add_option("--ranks", options->engine.ranks,
+                      "MPI ranks for isosurfaces (default: the tasks of Slurm's allocation, else the smaller "
+                      "of 4 and the usable cores)");
+  command->add_option("--group-threshold", how.drawing.group_threshold,
+                      "Ranks share triangles rather than pictures up to this share of a picture's bytes "
+                      "(default 0.1; the picture is the same for all)");
+  command->add_option("--threads", how.threads, "Threads (default: all; for isosurfaces 1 a rank)");
 }
 
 }  // namespace footwall::commands

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "engine/render/scene_frame.h"
 #include "storage/base/error.h"
 #include "unit/render/sample_scene.h"
@@ -113,6 +116,33 @@ TEST(SceneFrame, IsMetresEastNorthUpFromTheCentre) {
   EXPECT_NEAR(feet.z, -30.48, 1e-6);
   EXPECT_THROW(SceneFrame(g, 0, 0), Error);
   EXPECT_THROW(SceneFrame(g, 1, -5), Error);
+}
+
+TEST(Camera, LooksFromOnePlaceToAnother) {
+  const std::array<Vec3, 2> box{Vec3{-100, -100, -50}, Vec3{100, 100, 50}};
+  for (const bool perspective : {true, false}) {
+    const Camera camera = Camera::look_at({0, -500, 200}, {0, 0, 0}, {0, 0, 1}, box, 1.5, perspective);
+    const Vec4 target = camera.clip_of({0, 0, 0});
+    EXPECT_NEAR(target.x / target.w, 0, 1e-12);
+    EXPECT_NEAR(target.y / target.w, 0, 1e-12);
+    EXPECT_GT(target.z / target.w, -1);
+    EXPECT_LT(target.z / target.w, 1);
+    // East is to the right, up is up, what is nearer has less depth.
+    const Vec4 east = camera.clip_of({50, 0, 0});
+    const Vec4 above = camera.clip_of({0, 0, 40});
+    const Vec4 near = camera.clip_of({0, -100, 40});
+    EXPECT_GT(east.x / east.w, 0.1);
+    EXPECT_GT(above.y / above.w, 0.1);
+    EXPECT_LT(near.z / near.w, target.z / target.w);
+    // The cone's rim at the target's distance touches the picture's lesser side.
+    const double rim =
+        length(Vec3{0, -500, 200}) * std::tan(Camera::kConeDegrees / 2 * std::numbers::pi / 180);
+    const Vec4 top = camera.clip_of(camera.up * rim);
+    EXPECT_NEAR(top.y / top.w, 1, 1e-9);
+  }
+  EXPECT_THROW(Camera::look_at({1, 2, 3}, {1, 2, 3}, {0, 0, 1}, box, 1, true), Error);
+  EXPECT_THROW(Camera::look_at({0, 0, 3}, {0, 0, 0}, {0, 0, 1}, box, 1, true), Error);
+  EXPECT_THROW(Camera::look_at({NAN, 0, 3}, {0, 0, 0}, {0, 0, 1}, box, 1, true), Error);
 }
 
 }  // namespace

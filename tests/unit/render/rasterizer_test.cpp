@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "engine/verify/coverage_by_definition.h"
 #include "storage/base/error.h"
-#include "unit/render/reference_rasterizer.h"
 
 namespace footwall::render {
 namespace {
@@ -17,6 +17,10 @@ using Random = std::mt19937;
 
 std::int32_t between(Random& random, std::int32_t lo, std::int32_t hi) {
   return std::uniform_int_distribution<std::int32_t>(lo, hi)(random);
+}
+
+bool covers(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, int x, int y) {
+  return verify::covers({a.x, a.y}, {b.x, b.y}, {c.x, c.y}, x, y, kSubPixels);
 }
 
 // Positions that are often exactly on pixel centres and borders, where the fill rule decides.
@@ -36,7 +40,7 @@ void expect_reference_coverage(const ScreenVertex& a, const ScreenVertex& b, con
   for (int y = 0; y < buffer.height(); ++y) {
     for (int x = 0; x < buffer.width(); ++x) {
       const bool drawn = primitive_of(buffer.at(x, y)) == 7;
-      ASSERT_EQ(drawn, reference::covers(a, b, c, x, y))
+      ASSERT_EQ(drawn, covers(a, b, c, x, y))
           << "pixel " << x << "," << y << " of (" << a.x << "," << a.y << ") (" << b.x << "," << b.y << ") ("
           << c.x << "," << c.y << ")";
       if (!drawn) continue;

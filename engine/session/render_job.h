@@ -1,0 +1,49 @@
+// Draws isosurfaces on all ranks: each reads and extracts its pillars of the volumes and draws them, pictures
+// are merged (engine/render/composite), rank 0 writes the result as a layer for the picture that everything
+// else is drawn into. The layer's bytes depend on the job alone, not on the number of ranks.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/comm/communicator.h"
+#include "engine/render/camera.h"
+#include "engine/render/lit_surface.h"
+#include "storage/base/job_context.h"
+
+namespace footwall::session {
+
+// On disk as JSON: {footwall_render: 1, width, height, threads, group_threshold, interleave, camera:
+// {view_projection[16], eye, right, up, forward, perspective}, isosurfaces: [{volume, value, colour,
+// linear[9], shift}], layer, result}.
+struct RenderJob {
+  struct Isosurface {
+    std::filesystem::path volume;  // absolute, like the others
+    float value = 0;
+    render::Rgba colour = 0;
+    render::Placement placement;  // from the volume's own index space to the scene
+  };
+  int width = 0;  // of the layer
+  int height = 0;
+  int threads = 1;                  // of each rank
+  double group_threshold = 0.1;     // groups.h
+  std::string interleave = "auto";  // or "AxB", "AxBxC" (pillars.h)
+  render::Camera camera;
+  std::vector<Isosurface> isosurfaces;
+  std::filesystem::path layer;  // surface_layer.h
+  // {ranks, seconds: {read, extract, group, project, rasterize, shade, merge, gather, total}, isosurfaces:
+  // [{triangles}], bytes_sent, messages, merged_bytes, merged_pixels, layer_bytes}, written last
+  std::filesystem::path result;
+};
+
+// Throws kIo, kUnsupported (a path that is not UTF-8).
+void write_render_job(const RenderJob& job, const std::filesystem::path& path);
+// Throws kNotFound, kFormat.
+RenderJob read_render_job(const std::filesystem::path& path);
+
+// Collective; the same Error on every rank, and then no result: what reading volumes throws, kUsage for a
+// picture that cannot be, kUnsupported for too many triangles, kMemory, kCancelled on any rank.
+void run_render(const comm::Communicator& parent, const std::filesystem::path& job_path,
+                const JobContext& context);
+
+}  // namespace footwall::session

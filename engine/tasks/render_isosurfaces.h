@@ -1,0 +1,46 @@
+// Isosurfaces of a project's volumes, drawn by the engine for a picture.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "engine/render/camera.h"
+#include "engine/render/scene.h"
+#include "engine/render/scene_frame.h"
+#include "engine/render/surface_layer.h"
+#include "engine/session/launch.h"
+#include "storage/base/job_context.h"
+#include "storage/project/project.h"
+
+namespace footwall::tasks {
+
+// One --isosurface: VOLUME=VALUE[,COLOUR].
+struct WantedIsosurface {
+  project::VolumeRecord volume;
+  double value = 0;
+  render::Rgba colour = 0;
+  std::string name;  // "amplitude = 0.25"
+};
+
+// COLOUR: a name or #rrggbb; without one the n-th of a set. Throws kUsage for other words and for a value
+// that is not finite as a float32, kNotFound for a volume that is not there.
+std::vector<WantedIsosurface> isosurfaces_from(const project::Project& project,
+                                               const std::vector<std::string>& words);
+
+struct IsosurfaceOptions {
+  session::LaunchOptions launch;
+  double group_threshold = 0.1;
+};
+
+struct DrawnIsosurfaces {
+  render::SurfaceLayer layer;
+  std::vector<std::int64_t> triangles;  // of each
+  std::string result_json;              // the engine's, see session/render_job.h
+};
+
+// width, height: of the layer. Throws what the engine does (session::run_engine).
+DrawnIsosurfaces draw_isosurfaces(const project::Project& project,
+                                  const std::vector<WantedIsosurface>& wanted,
+                                  const render::SceneFrame& frame, const render::Camera& camera, int width,
+                                  int height, const IsosurfaceOptions& options, const JobContext& job);
+
+}  // namespace footwall::tasks
