@@ -90,6 +90,7 @@ render::Placement placement_of(const project::VolumeRecord& volume, const render
 std::vector<WantedIsosurface> isosurfaces_from(const project::Project& project,
                                                const std::vector<std::string>& words) {
   std::vector<WantedIsosurface> wanted;
+  wanted.reserve(words.size());
   for (const std::string& each : words) wanted.push_back(isosurface_from(project, each, wanted.size()));
   return wanted;
 }

@@ -30,7 +30,7 @@ SurfaceLayer Composer::compose(comm::Communicator& world, std::span<const LitSur
   const comm::Traffic before = world.traffic();
   const Halving halving(world.size());
   SurfaceLayer layer = world.collectively([&] {
-    VisibilityBuffer(options.width, options.height, 0, 1);  // whether there can be such a picture
+    const VisibilityBuffer possible(options.width, options.height, 0, 1);  // throws where it is not
     return SurfaceLayer(options.width, options.height);
   });
 
