@@ -28,15 +28,12 @@ std::vector<double> numbers_of(std::string_view part, const std::string& words) 
   return numbers;
 }
 
-}  // namespace
+bool is_name(const std::string& words) {
+  return words.find_first_of("0123456789") == std::string::npos ||
+         words.find_first_of(",;") == std::string::npos;
+}
 
-void take_camera(const std::string& words, render::View& into) {
-  const bool has_digits = words.find_first_of("0123456789") != std::string::npos;
-  if (!has_digits || (words.find(',') == std::string::npos && words.find(';') == std::string::npos)) {
-    throw Error(ErrorCode::kNotFound,
-                fmt::format("there is no saved view '{}': projects keep none yet", words),
-                wrong(words).hint());
-  }
+void take_numbers(const std::string& words, render::View& into) {
   const std::vector<std::string_view> parts = text::split(words, ';');
   if (parts.size() == 1) {
     const std::vector<double> numbers = numbers_of(words, words);
@@ -55,6 +52,32 @@ void take_camera(const std::string& words, render::View& into) {
   }
   into.look_at = render::LookAt{places[0], places[1]};
   if (places.size() == 3) into.look_at->up = places[2];
+}
+
+}  // namespace
+
+void take_camera(const project::Project& project, const std::string& words, render::View& into) {
+  for (const project::ViewRecord& view : project.views()) {
+    if (view.name != words) continue;
+    take_numbers(view.camera, into);
+    if (into.exaggeration == 0) into.exaggeration = view.exaggeration;
+    return;
+  }
+  if (is_name(words)) project.view(words);  // throws, and tells the names there are
+  take_numbers(words, into);
+}
+
+std::string camera_words(const render::View& view) {
+  const auto place = [](const render::Vec3& p) { return fmt::format("{},{},{}", p.x, p.y, p.z); };
+  if (view.look_at) {
+    return fmt::format("{};{};{}", place(view.look_at->eye), place(view.look_at->target),
+                       place(view.look_at->up));
+  }
+  if (!view.azimuth_degrees) {
+    throw Error(ErrorCode::kUsage, "a view is saved with the direction that it looks in",
+                "give --camera or --azimuth, too");
+  }
+  return fmt::format("{},{},{}", *view.azimuth_degrees, view.elevation_degrees, view.zoom);
 }
 
 }  // namespace footwall::tasks

@@ -179,8 +179,9 @@ Rendered render_faults(const project::Project& project, const RenderOptions& opt
   picture.view.zoom = options.zoom;
   picture.view.exaggeration = options.exaggeration;
   picture.view.velocity = options.velocity;
-  if (!options.camera.empty()) take_camera(options.camera, picture.view);
+  if (!options.camera.empty()) take_camera(project, options.camera, picture.view);
   Rendered done;
+  done.view = picture.view;
   job.report(0.05, "read");
   if (options.faults) add_faults(project, options, picture, done);
   if (!options.sections.empty()) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/render/fault_picture.h"
 #include "engine/tasks/render_isosurfaces.h"
 #include "storage/base/job_context.h"
 #include "storage/project/project.h"
@@ -35,6 +36,7 @@ struct RenderOptions {
 };
 
 struct Rendered {
+  render::View view;  // what was looked at; without azimuth where that was chosen
   std::int64_t faces = 0;
   std::vector<std::string> isosurfaces;  // their names
   std::vector<std::int64_t> triangles;   // of each isosurface

@@ -10,6 +10,7 @@
 #include "storage/project/detail/run_table.h"
 #include "storage/project/detail/surface_table.h"
 #include "storage/project/detail/survey_table.h"
+#include "storage/project/detail/view_table.h"
 #include "storage/project/detail/volume_table.h"
 #include "storage/survey/lattice.h"
 
@@ -20,6 +21,7 @@ using detail::MeshTable;
 using detail::RunTable;
 using detail::SurfaceTable;
 using detail::SurveyTable;
+using detail::ViewTable;
 using detail::VolumeTable;
 
 const std::filesystem::path& Project::path() const {
@@ -275,6 +277,31 @@ std::vector<bool> Project::stale_faces(std::int64_t run, std::int64_t fault) con
     stale[f] = found == faces.end() || found->second != made.lattice[f];
   }
   return stale;
+}
+
+// Views.
+
+std::vector<ViewRecord> Project::views() const {
+  return ViewTable(*state_->database).all();
+}
+
+ViewRecord Project::view(const std::string& name) const {
+  std::string names;
+  for (const ViewRecord& view : views()) {
+    if (view.name == name) return view;
+    names += names.empty() ? view.name : ", " + view.name;
+  }
+  throw Error(ErrorCode::kNotFound, fmt::format("there is no saved view '{}'", name),
+              names.empty() ? "footwall render --save-view saves one" : "there are: " + names);
+}
+
+void Project::save_view(const ViewRecord& view) {
+  state_->write([&] { ViewTable(*state_->database).put(view); });
+}
+
+void Project::delete_view(const std::string& name) {
+  view(name);
+  state_->write([&] { ViewTable(*state_->database).remove(name); });
 }
 
 // Integrity.

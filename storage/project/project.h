@@ -151,6 +151,13 @@ class Project {
   // positions, or the fault is gone or edited and not yet triangulated again.
   std::vector<bool> stale_faces(std::int64_t run, std::int64_t fault) const;
 
+  // Saved views, by name. Saving under a name that is there replaces it; view() and delete_view() throw
+  // kNotFound, listing the names.
+  std::vector<ViewRecord> views() const;
+  ViewRecord view(const std::string& name) const;
+  void save_view(const ViewRecord& view);
+  void delete_view(const std::string& name);
+
   // integrity_check, foreign keys, and every stored blob against the counts that describe it.
   IntegrityReport check() const;
 

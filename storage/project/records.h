@@ -161,6 +161,14 @@ struct FaultRun {
   std::vector<FaceVoxels> voxels;  // for add_run; read by Project::face_voxels alone, since they may be large
 };
 
+// A camera under a name. Not interpretation: outside undo.
+struct ViewRecord {
+  std::string name;
+  std::string camera;  // "azimuth,elevation,zoom" or "eye;target;up", as `footwall render --camera` takes it
+  double exaggeration = 0;  // of heights; 0 = chosen to suit the box
+  std::string when;         // UTC, given by the project
+};
+
 struct IntegrityReport {
   std::vector<std::string> problems;  // one line each; empty = whole
   bool ok() const { return problems.empty(); }

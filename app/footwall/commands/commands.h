@@ -20,6 +20,7 @@ void add_faces(console::Program& program);
 void add_isosurface(console::Program& program);
 void add_export(console::Program& program);
 void add_render(console::Program& program);
+void add_views(console::Program& program);
 void add_pack(console::Program& program);
 void add_relink(console::Program& program);
 void add_doctor(console::Program& program);

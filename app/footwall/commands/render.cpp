@@ -5,6 +5,7 @@
 #include "app/footwall/commands/commands.h"
 #include "app/footwall/commands/launch_options.h"
 #include "app/footwall/commands/options.h"
+#include "engine/tasks/render_camera.h"
 #include "engine/tasks/render_faults.h"
 #include "storage/base/log.h"
 
@@ -12,7 +13,7 @@ namespace footwall::commands {
 namespace {
 
 struct Options {
-  std::string project, out, size = "1600x1000", range, depth;
+  std::string project, out, size = "1600x1000", range, depth, save_view;
   bool faults = false;
   EngineOptions engine;
   tasks::RenderOptions how;
@@ -22,6 +23,13 @@ console::Output run(Options& options, const console::Console& console) {
   if (!options.faults && options.how.sections.empty() && options.how.isosurfaces.empty()) {
     throw Error(ErrorCode::kUsage, "nothing to draw", "add --faults, --section or --isosurface");
   }
+  const bool saves = !options.save_view.empty();
+  if (saves) {
+    project::check_name("view", options.save_view);
+    if (options.how.camera.empty() && !options.how.azimuth) {
+      throw Error(ErrorCode::kUsage, "--save-view needs a direction to save", "give --camera or --azimuth");
+    }
+  }
   if (options.how.threads > 0) options.engine.threads = options.how.threads;
   options.how.drawing.launch = options.engine.launch();
   options.how.depth = options.depth;
@@ -30,7 +38,8 @@ console::Output run(Options& options, const console::Console& console) {
   options.how.width = width;
   options.how.height = height;
   if (!options.range.empty()) options.how.range = range_from(options.range, "--range");
-  const project::Project project = open_project(options.project, project::OpenMode::kRead);
+  project::Project project =
+      open_project(options.project, saves ? project::OpenMode::kWrite : project::OpenMode::kRead);
   const tasks::Rendered done = tasks::render_faults(project, options.how, options.out, console.job());
   for (const std::string& notice : done.notices) log::warn(notice);
   console::Output output{
@@ -44,6 +53,13 @@ console::Output run(Options& options, const console::Console& console) {
     const console::Json engine = console::Json::parse(done.engine_json);
     for (const char* key : {"ranks", "seconds", "merged_pixels", "merged_bytes", "bytes_sent", "messages"})
       output.json[key] = engine.at(key);
+  }
+  if (saves) {
+    project.save_view(
+        {options.save_view, tasks::camera_words(done.view), done.view.exaggeration, std::string()});
+    project.close();
+    output.json["view"] = options.save_view;
+    output.text += fmt::format("\nview {} saved", options.save_view);
   }
   return output;
 }
@@ -79,12 +95,15 @@ void add_render(console::Program& program) {
       command->add_option("--elevation", how.elevation, "Degrees above the horizon (default 25)");
   CLI::Option* zoom = command->add_option("--zoom", how.zoom, "1 fits the survey's box (default 1)");
   command
-      ->add_option("--camera", how.camera,
-                   "azimuth,elevation,zoom, or eye;target;up as x,y,z each, metres east, north and up from "
-                   "the survey's centre")
+      ->add_option(
+          "--camera", how.camera,
+          "A saved view's name, azimuth,elevation,zoom, or eye;target;up as x,y,z each, metres east, "
+          "north and up from the survey's centre")
       ->excludes(azimuth)
       ->excludes(elevation)
       ->excludes(zoom);
+  command->add_option("--save-view", options->save_view,
+                      "Keep the camera and the exaggeration under this name, for --camera");
   command->add_option(
       "--exaggeration", how.exaggeration,
       "Vertical exaggeration (default: a round one that makes the box about 0.6 as high as long)");

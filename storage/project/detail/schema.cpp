@@ -102,7 +102,13 @@ const Migration kOwnMigrations[] = {
      " FOREIGN KEY(run, fault) REFERENCES extraction_fault(run, fault)) STRICT;",
      false,
      "CREATE TEMP VIEW face_voxels AS SELECT 0 AS run, 0 AS fault, '' AS codec, '' AS parameters,"
-     " x'' AS ends, x'' AS data WHERE 0;"}};
+     " x'' AS ends, x'' AS data WHERE 0;"},
+    {4, "cameras are saved by name",
+     "CREATE TABLE view("
+     "name TEXT PRIMARY KEY NOT NULL, camera TEXT NOT NULL, exaggeration REAL NOT NULL, made TEXT NOT NULL) "
+     "STRICT;",
+     false,
+     "CREATE TEMP VIEW view AS SELECT '' AS name, '' AS camera, 0.0 AS exaggeration, '' AS made WHERE 0;"}};
 
 constexpr const char* kUndoTables[] = {"fault", "pillar", "pillar_node", "surface"};
 

@@ -12,7 +12,7 @@
 namespace footwall::project::detail {
 
 inline constexpr std::int32_t kApplicationId = 0x46574C31;  // "FWL1", at byte 68 of the file
-inline constexpr int kSchemaVersion = 3;
+inline constexpr int kSchemaVersion = 4;
 
 // The steps from version 1 to kSchemaVersion, and behind them those of the caller.
 std::vector<Migration> all_migrations(std::span<const Migration> further);

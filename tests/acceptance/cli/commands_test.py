@@ -16,7 +16,7 @@ class Commands(FootwallTest):
     def test_new_and_info_tell_what_is_there(self):
         project = self.synthetic()
         info = self.footwall("info", project)
-        self.assertEqual(info["schema"], 3)
+        self.assertEqual(info["schema"], 4)
         self.assertEqual((info["survey"]["inlines"]["count"], info["survey"]["crosslines"]["count"],
                           info["survey"]["samples"]), (40, 36, 32))
         self.assertIn(info["survey"]["vertical_unit"], ("ms", "m", "ft"))

@@ -72,8 +72,29 @@ class RenderIsosurface(FootwallTest):
         for words in ("1,2,3,4", "a,2", "0,0,0;1,2", "0,0,0;0,0,0", "0,0,5;0,0,0;0,0,1", "0,95,1"):
             self.refused(2, *draw, "--camera", words, "--out", "e.png")
         self.refused(2, *draw, "--camera", "0,0,1", "--zoom", 2, "--out", "e.png")
-        saved = self.refused(1, *draw, "--camera", "my view", "--out", "e.png")
-        self.assertIn("projects keep none yet", saved["message"])
+        self.assertIn("--save-view", self.refused(1, *draw, "--camera", "my view", "--out", "e.png")["hint"])
+
+    def test_saved_views(self):
+        project = self.synthetic()
+        draw = ("render", project, "--section", "z=middle", *self.SMALL)
+        self.assertEqual(self.footwall("views", project, "--json")["views"], [])
+        self.refused(2, *draw, "--save-view", "front", "--out", "a.png")
+        self.refused(1, *draw, "--camera", "40,30,1.5", "--save-view", " ", "--out", "a.png")
+        self.footwall(*draw, "--camera", "40,30,1.5", "--exaggeration", 2, "--save-view", "front", "--out", "a.png")
+        self.footwall(*draw, "--camera", "front", "--out", "b.png")
+        self.assertEqual(digest(self.path("a.png")), digest(self.path("b.png")))
+        self.footwall(*draw, "--camera", "front", "--exaggeration", 1, "--out", "c.png")
+        self.assertNotEqual(digest(self.path("a.png")), digest(self.path("c.png")))
+        self.footwall(*draw, "--camera", "10.25,-3000,1500;0,0,0", "--save-view", "2, from above", "--out", "d.png")
+        self.footwall(*draw, "--camera", "2, from above", "--out", "e.png")
+        self.assertEqual(digest(self.path("d.png")), digest(self.path("e.png")))
+        views = self.footwall("views", project, "--json")["views"]
+        self.assertEqual([view["name"] for view in views], ["2, from above", "front"])
+        self.assertEqual([view["exaggeration"] for view in views], [None, 2])
+        self.assertIn("front", self.refused(1, *draw, "--camera", "back", "--out", "f.png")["hint"])
+        self.footwall("views", project, "--delete", "front")
+        self.refused(1, "views", project, "--delete", "front")
+        self.refused(1, *draw, "--camera", "front", "--out", "f.png")
 
     def test_errors_name_what_is_wrong(self):
         project = self.synthetic()

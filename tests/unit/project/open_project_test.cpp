@@ -337,13 +337,13 @@ TEST_F(OpenProject, ANewerProjectIsRefusedWithBothVersions) {
     const Error error = error_of([&] { Project::open(path_, mode); });
     EXPECT_EQ(error.code(), ErrorCode::kUnsupported);
     EXPECT_NE(error.message().find("version 7"), std::string::npos);
-    EXPECT_NE(error.message().find("up to 3"), std::string::npos);
+    EXPECT_NE(error.message().find("up to 4"), std::string::npos);
   }
 }
 
 const std::vector<Migration> kSteps{
-    {4, "faults know their throw", "ALTER TABLE fault ADD COLUMN throw REAL NOT NULL DEFAULT 0", false},
-    {5, "wells", "CREATE TABLE well(id INTEGER PRIMARY KEY NOT NULL, name TEXT NOT NULL) STRICT", false}};
+    {5, "faults know their throw", "ALTER TABLE fault ADD COLUMN throw REAL NOT NULL DEFAULT 0", false},
+    {6, "wells", "CREATE TABLE well(id INTEGER PRIMARY KEY NOT NULL, name TEXT NOT NULL) STRICT", false}};
 
 TEST_F(OpenProject, MigrationsRunForwardAfterABackupAndKeepUndo) {
   {
@@ -356,19 +356,19 @@ TEST_F(OpenProject, MigrationsRunForwardAfterABackupAndKeepUndo) {
             ErrorCode::kUnsupported);
   {
     auto project = Project::open(path_, OpenMode::kWrite, with(kSteps));
-    EXPECT_EQ(project.schema_version(), 5);
+    EXPECT_EQ(project.schema_version(), 6);
     ASSERT_EQ(project.notices().size(), 1U);
-    EXPECT_NE(project.notices()[0].find("backup-v3"), std::string::npos);
+    EXPECT_NE(project.notices()[0].find("backup-v4"), std::string::npos);
     EXPECT_EQ(project.redo(), "add F2") << "steps of the older schema fit tables with columns appended";
     EXPECT_EQ(project.faults().size(), 2U);
     EXPECT_EQ(project.undo(), "add F2");
     EXPECT_EQ(project.undo(), "add F1");
     EXPECT_TRUE(project.faults().empty());
   }
-  const auto old = Project::open(path_.string() + ".backup-v3", OpenMode::kRead);
-  EXPECT_EQ(old.schema_version(), 3);
+  const auto old = Project::open(path_.string() + ".backup-v4", OpenMode::kRead);
+  EXPECT_EQ(old.schema_version(), 4);
   EXPECT_EQ(old.faults().size(), 1U);
-  EXPECT_EQ(Project::open(path_, OpenMode::kRead, with(kSteps)).schema_version(), 5);
+  EXPECT_EQ(Project::open(path_, OpenMode::kRead, with(kSteps)).schema_version(), 6);
   EXPECT_EQ(error_of([&] { Project::open(path_, OpenMode::kWrite); }).code(), ErrorCode::kUnsupported);
 }
 
@@ -383,7 +383,8 @@ TEST_F(OpenProject, AProjectOfVersionOneGetsSurfacesThatBelongToFaults) {
   // As version 1 had it, also in the log: a changeset of a table with fewer columns.
   tamper(
       "ALTER TABLE surface DROP COLUMN vertical_unit; ALTER TABLE surface DROP COLUMN horizontal_unit;"
-      "ALTER TABLE surface DROP COLUMN fault; DROP TABLE face_voxels; DELETE FROM edit; PRAGMA user_version "
+      "ALTER TABLE surface DROP COLUMN fault; DROP TABLE face_voxels; DROP TABLE view; DELETE FROM edit; "
+      "PRAGMA user_version "
       "= 1");
   {
     const auto project = Project::open(path_, OpenMode::kRead);
@@ -396,9 +397,9 @@ TEST_F(OpenProject, AProjectOfVersionOneGetsSurfacesThatBelongToFaults) {
   }
   {
     auto project = Project::open(path_, OpenMode::kWrite);
-    EXPECT_EQ(project.schema_version(), 3);
+    EXPECT_EQ(project.schema_version(), 4);
     ASSERT_EQ(project.notices().size(), 1U);
-    EXPECT_NE(project.notices()[0].find("from schema version 1 to 3"), std::string::npos);
+    EXPECT_NE(project.notices()[0].find("from schema version 1 to 4"), std::string::npos);
     project.edit("import again", [&](Interpretation& it) {
       it.add_surface({"T", surface.vertices, surface.triangles}, "test", it.add_fault("F"), {"ft", "s"});
     });
@@ -413,7 +414,7 @@ TEST_F(OpenProject, AMigrationThatChangesMoreEndsTheHistory) {
     project.edit("add F1", [](Interpretation& it) { it.add_fault("F1"); });
   }
   auto steps = kSteps;
-  steps[0] = {4, "surfaces by name", "CREATE INDEX surface_by_name ON surface(name)", true};
+  steps[0] = {5, "surfaces by name", "CREATE INDEX surface_by_name ON surface(name)", true};
   auto project = Project::open(path_, OpenMode::kWrite, with(steps));
   EXPECT_FALSE(project.undo());
   ASSERT_EQ(project.history().size(), 2U);
@@ -430,7 +431,7 @@ TEST_F(OpenProject, AMigrationThatFailsLeavesTheProjectAsItWas) {
   steps[1].sql = "DROP TABLE nowhere";
   EXPECT_THROW(Project::open(path_, OpenMode::kWrite, with(steps)), Error);
   auto project = Project::open(path_, OpenMode::kWrite);
-  EXPECT_EQ(project.schema_version(), 3);
+  EXPECT_EQ(project.schema_version(), 4);
   EXPECT_EQ(project.survey(), small_survey());
 }
 

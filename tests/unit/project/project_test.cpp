@@ -33,7 +33,7 @@ TEST_F(ProjectTest, TheSurveyAndSettingsComeBackExactly) {
   {
     auto project = Project::create(path_, small_survey());
     EXPECT_FALSE(project.read_only());
-    EXPECT_EQ(project.schema_version(), 3);
+    EXPECT_EQ(project.schema_version(), 4);
     project.set_setting("velocity", "2000.5");
   }
   auto project = Project::open(path_, OpenMode::kRead);
@@ -113,6 +113,27 @@ MeshRecord strip(std::int32_t n, double scale) {
   }
   for (std::int32_t f = 0; f + 2 < n; ++f) mesh.faces.push_back({7 + f % 2, f, {f, f + 1, f + 2}});
   return mesh;
+}
+
+TEST_F(ProjectTest, ViewsAreKeptByNameOutsideUndo) {
+  auto project = Project::create(path_, {});
+  EXPECT_TRUE(project.views().empty());
+  EXPECT_EQ(error_of([&] { project.view("front"); }).code(), ErrorCode::kNotFound);
+  project.save_view({"top", "0,90,1", 0, ""});
+  project.save_view({"front", "30,20,1", 2.5, ""});
+  project.save_view({"front", "31,20,1", 3, ""});
+  EXPECT_FALSE(project.undo());
+  ASSERT_EQ(project.views().size(), 2U);
+  EXPECT_EQ(project.views()[0].name, "front");
+  EXPECT_EQ(project.view("front").camera, "31,20,1");
+  EXPECT_EQ(project.view("front").exaggeration, 3);
+  EXPECT_FALSE(project.view("front").when.empty());
+  for (const ViewRecord& wrong : {ViewRecord{"", "0,0,1", 0, ""}, ViewRecord{"x", "0,0,1", -1, ""},
+                                  ViewRecord{"x", "0,0,1", std::numeric_limits<double>::quiet_NaN(), ""}}) {
+    EXPECT_EQ(error_of([&] { project.save_view(wrong); }).code(), ErrorCode::kInvalid);
+  }
+  project.delete_view("top");
+  EXPECT_EQ(error_of([&] { project.delete_view("top"); }).hint(), "there are: front");
 }
 
 TEST_F(ProjectTest, AMeshComesBackExactlyAndIsReplaced) {
