@@ -6,6 +6,7 @@
 #include <deque>
 #include <nlohmann/json.hpp>
 
+#include "engine/session/job_json.h"
 #include "storage/base/hash.h"
 #include "storage/base/partial_file.h"
 #include "storage/volume/volume_reader_parallel.h"
@@ -15,8 +16,6 @@ namespace footwall::session {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr std::size_t kJobLimit = std::size_t{1} << 20;
 
 // What a rank needs to make blocks of the new volume.
 class Maker {
@@ -108,19 +107,11 @@ void write_attribute_job(const AttributeJob& job, const std::filesystem::path& p
                   {"volume", job.volume.string()},
                   {"output", job.output.string()},
                   {"result", job.result.string()}};
-  std::string text;
-  try {
-    text = json.dump(1) + "\n";
-  } catch (const Json::exception&) {
-    throw Error(ErrorCode::kUnsupported,
-                "the engine cannot be told the path " + job.volume.string() + ": it is not UTF-8",
-                "rename it");
-  }
-  write_whole_file(path, text);
+  write_job_json(json, path, "the path " + job.volume.string() + ": it is not UTF-8");
 }
 
 AttributeJob read_attribute_job(const std::filesystem::path& path) {
-  const Json json = Json::parse(read_whole_file(path, kJobLimit), nullptr, false);
+  const Json json = read_job_json(path);
   const Error odd(ErrorCode::kFormat, path.string() + " is no attribute job of this version",
                   "use footwall attribute");
   try {

@@ -2,15 +2,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/session/job_json.h"
 #include "storage/base/error.h"
-#include "storage/base/partial_file.h"
 
 namespace footwall::session {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr std::size_t kJobLimit = std::size_t{1} << 20;
 
 }  // namespace
 
@@ -27,20 +25,14 @@ void write_isosurface_job(const IsosurfaceJob& job, const std::filesystem::path&
                   {"velocity", job.velocity ? Json(*job.velocity) : Json()},
                   {"output", job.output.string()},
                   {"result", job.result.string()}};
-  std::string text;
-  try {
-    text = json.dump(1) + "\n";
-  } catch (const Json::exception&) {
-    throw Error(ErrorCode::kUnsupported,
-                "the engine cannot be told the paths " + job.volume.string() + " and " + job.output.string() +
-                    ": they are not both UTF-8",
-                "rename them");
-  }
-  write_whole_file(path, text);
+  write_job_json(
+      json, path,
+      "the paths " + job.volume.string() + " and " + job.output.string() + ": they are not both UTF-8",
+      "rename them");
 }
 
 IsosurfaceJob read_isosurface_job(const std::filesystem::path& path) {
-  const Json json = Json::parse(read_whole_file(path, kJobLimit), nullptr, false);
+  const Json json = read_job_json(path);
   const Error odd(ErrorCode::kFormat, path.string() + " is no isosurface job of this version",
                   "use footwall isosurface");
   try {

@@ -9,6 +9,7 @@
 
 #include "engine/render/camera.h"
 #include "engine/render/composite/compose.h"
+#include "engine/session/job_json.h"
 #include "storage/base/hash.h"
 #include "storage/base/partial_file.h"
 
@@ -18,7 +19,6 @@ namespace {
 using Json = nlohmann::json;
 using Kind = BenchedScene::Kind;
 
-constexpr std::size_t kJobLimit = std::size_t{1} << 20;
 constexpr double kAzimuth = 30;
 constexpr double kElevation = 25;
 
@@ -122,19 +122,11 @@ void write_render_bench(const RenderBench& bench, const std::filesystem::path& p
                     {"value", bench.scene.value},
                     {"triangles", bench.scene.triangles}}},
                   {"result", bench.result.string()}};
-  std::string text;
-  try {
-    text = json.dump(1) + "\n";
-  } catch (const Json::exception&) {
-    throw Error(ErrorCode::kUnsupported,
-                "the engine cannot be told the path " + bench.scene.file.string() + ": it is not UTF-8",
-                "rename it");
-  }
-  write_whole_file(path, text);
+  write_job_json(json, path, "the path " + bench.scene.file.string() + ": it is not UTF-8");
 }
 
 RenderBench read_render_bench(const std::filesystem::path& path) {
-  const Json json = Json::parse(read_whole_file(path, kJobLimit), nullptr, false);
+  const Json json = read_job_json(path);
   const Error odd(ErrorCode::kFormat, path.string() + " is no render bench of this version",
                   "use footwall bench render");
   try {

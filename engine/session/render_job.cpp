@@ -8,14 +8,13 @@
 #include "engine/isosurface/parallel/stored_samples.h"
 #include "engine/render/composite/compose.h"
 #include "engine/session/drawn_pieces.h"
+#include "engine/session/job_json.h"
 #include "storage/base/partial_file.h"
 
 namespace footwall::session {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr std::size_t kJobLimit = std::size_t{1} << 20;
 
 Json json_of(const render::Vec3& v) {
   return {v.x, v.y, v.z};
@@ -87,20 +86,11 @@ void write_render_job(const RenderJob& job, const std::filesystem::path& path) {
                                    {"linear", surface.placement.linear},
                                    {"shift", json_of(surface.placement.shift)}});
   }
-  std::string text;
-  try {
-    text = json.dump(1) + "\n";
-  } catch (const Json::exception&) {
-    throw Error(
-        ErrorCode::kUnsupported,
-        "the engine cannot be told the path " + job.layer.string() + " or a volume's: it is not UTF-8",
-        "rename it");
-  }
-  write_whole_file(path, text);
+  write_job_json(json, path, "the path " + job.layer.string() + " or a volume's: it is not UTF-8");
 }
 
 RenderJob read_render_job(const std::filesystem::path& path) {
-  const Json json = Json::parse(read_whole_file(path, kJobLimit), nullptr, false);
+  const Json json = read_job_json(path);
   const Error odd(ErrorCode::kFormat, path.string() + " is no render job of this version",
                   "use footwall render");
   try {
