@@ -12,6 +12,7 @@
 #include "engine/isosurface/brick_ranges.h"
 #include "engine/verify/surface_by_definition.h"
 #include "engine/voxelize/simd.h"
+#include "sample_volumes.h"
 #include "storage/base/error.h"
 
 namespace footwall::isosurface {
@@ -23,53 +24,10 @@ using survey::Index;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-struct Volume {
-  std::vector<float> values;
-  Index size;
-  Field field() const { return {values, size, {0, 0, 0}, size}; }
-};
-
-Volume volume_of(const Index& size,
-                 const std::function<float(std::int64_t, std::int64_t, std::int64_t)>& value) {
-  Volume made{{}, size};
-  for (std::int64_t i = 0; i < size[0]; ++i) {
-    for (std::int64_t j = 0; j < size[1]; ++j) {
-      for (std::int64_t k = 0; k < size[2]; ++k) made.values.push_back(value(i, j, k));
-    }
-  }
-  return made;
-}
-
-Volume noise(const Index& size, unsigned seed, double null_share = 0) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> value(-1, 1);
-  std::bernoulli_distribution null(null_share);
-  return volume_of(size, [&](auto...) { return null(random) ? kNan : value(random); });
-}
-
-Volume waves(const Index& size) {
-  return volume_of(size, [](auto i, auto j, auto k) {
+SampleVolume waves(const Index& size) {
+  return sampled(size, [](auto i, auto j, auto k) {
     return static_cast<float>(i * i + 3 * j * j - 2 * j * k + k * k % 97) / 64;
   });
-}
-
-// A part of a volume as a field of its own, with the samples of `box`.
-struct Part {
-  std::vector<float> values;
-  Field field;
-};
-Part part_of(const Volume& volume, const Box& box) {
-  Part part;
-  for (std::int64_t i = box.lo[0]; i < box.hi[0]; ++i) {
-    for (std::int64_t j = box.lo[1]; j < box.hi[1]; ++j) {
-      for (std::int64_t k = box.lo[2]; k < box.hi[2]; ++k) {
-        part.values.push_back(
-            volume.values[static_cast<std::size_t>((i * volume.size[1] + j) * volume.size[2] + k)]);
-      }
-    }
-  }
-  part.field = {part.values, {box.size(0), box.size(1), box.size(2)}, box.lo, volume.size};
-  return part;
 }
 
 void expect_defined(const Field& field, float isovalue, ExtractOptions options, const std::string& what) {
@@ -91,7 +49,7 @@ TEST_F(Bricks, EqualTheDefinitionForAnyRowLength) {
                          {3, 2, 128}, {4, 3, 129}, {9, 5, 17}, {5, 18, 3}};
   for (const Index& size : sizes) {
     for (const double nulls : {0.0, 0.01, 0.5}) {
-      const Volume volume = noise(size, 7, nulls);
+      const SampleVolume volume = random_volume(size, 7, nulls);
       expect_defined(volume.field(), 0.1F, {},
                      fmt::format("{}x{}x{}, {} nulls", size[0], size[1], size[2], nulls));
     }
@@ -101,21 +59,22 @@ TEST_F(Bricks, EqualTheDefinitionForAnyRowLength) {
 
 TEST_F(Bricks, OfAVolumeWithoutCellsAreEmpty) {
   for (const Index& size : {Index{1, 9, 5}, Index{7, 1, 5}, Index{3, 4, 1}, Index{1, 1, 1}}) {
-    const Volume volume = noise(size, 1);
+    const SampleVolume volume = random_volume(size, 1);
     expect_defined(volume.field(), 0, {}, "no cells");
   }
   ExtractOptions options;
   options.cells = Box{{2, 2, 2}, {2, 3, 4}};
-  const Volume volume = noise({5, 5, 5}, 1);
+  const SampleVolume volume = random_volume({5, 5, 5}, 1);
   expect_defined(volume.field(), 0, options, "an empty box");
 }
 
 TEST_F(Bricks, AreTheSameOnAllInstructionSetsAndThreadCounts) {
-  const Volume volumes[] = {noise({14, 11, 70}, 3), noise({14, 11, 70}, 4, 0.02), waves({20, 13, 66})};
+  const SampleVolume volumes[] = {random_volume({14, 11, 70}, 3), random_volume({14, 11, 70}, 4, 0.02),
+                                  waves({20, 13, 66})};
   for (const auto level : {SimdLevel::kBaseline, SimdLevel::kAvx2, SimdLevel::kAvx512}) {
     voxelize::limit_simd(level);
     for (int threads = 1; threads <= 3; ++threads) {
-      for (const Volume& volume : volumes) {
+      for (const SampleVolume& volume : volumes) {
         ExtractOptions options;
         options.threads = threads;
         expect_defined(volume.field(), 0.2F, options, fmt::format("{}, {} threads", name_of(level), threads));
@@ -127,10 +86,10 @@ TEST_F(Bricks, AreTheSameOnAllInstructionSetsAndThreadCounts) {
 TEST_F(Bricks, TakeValuesEqualToTheIsovalueForInside) {
   std::mt19937 random(5);
   std::uniform_int_distribution<int> value(0, 3);
-  const Volume whole = volume_of({9, 9, 67}, [&](auto...) { return static_cast<float>(value(random)); });
+  const SampleVolume whole = sampled({9, 9, 67}, [&](auto...) { return static_cast<float>(value(random)); });
   for (const float isovalue : {0.0F, 1.0F, 2.0F, 3.0F, 4.0F})
     expect_defined(whole.field(), isovalue, {}, "whole");
-  const Volume constant = volume_of({4, 4, 4}, [](auto...) { return 2.0F; });
+  const SampleVolume constant = sampled({4, 4, 4}, [](auto...) { return 2.0F; });
   for (const float isovalue : {1.0F, 2.0F, 3.0F}) {
     Surface made;
     extract(constant.field(), isovalue, {}, made);
@@ -145,7 +104,7 @@ TEST_F(Bricks, StandInfiniteHugeAndTinyValues) {
   const float values[] = {kInf, -kInf, 3e38F, -3e38F, 1e-40F, -1e-40F, 0, 1, -1, 1e-25F, -2e-25F, 1e19F};
   std::uniform_int_distribution<std::size_t> which(0, std::size(values) - 1);
   for (int round = 0; round < 5; ++round) {
-    const Volume volume = volume_of({7, 8, 20}, [&](auto...) { return values[which(random)]; });
+    const SampleVolume volume = sampled({7, 8, 20}, [&](auto...) { return values[which(random)]; });
     for (const float isovalue : {0.0F, 1e-25F, 1e20F}) {
       Surface made;
       extract(volume.field(), isovalue, {}, made);
@@ -153,8 +112,8 @@ TEST_F(Bricks, StandInfiniteHugeAndTinyValues) {
     }
   }
   // Tiny values have directions, too.
-  const Volume slope =
-      volume_of({4, 4, 4}, [](auto i, auto j, auto) { return 1e-30F * static_cast<float>(i + j); });
+  const SampleVolume slope =
+      sampled({4, 4, 4}, [](auto i, auto j, auto) { return 1e-30F * static_cast<float>(i + j); });
   Surface made;
   extract(slope.field(), 2.5e-30F, {}, made);
   ASSERT_GT(made.normals.size(), 0U);
@@ -165,7 +124,7 @@ TEST_F(Bricks, StandInfiniteHugeAndTinyValues) {
 }
 
 TEST_F(Bricks, LeaveOutNormalsAndKeysThatAreNotAskedFor) {
-  const Volume volume = noise({6, 6, 66}, 8);
+  const SampleVolume volume = random_volume({6, 6, 66}, 8);
   ExtractOptions options;
   Surface made;
   for (const bool normals : {true, false}) {
@@ -181,8 +140,8 @@ TEST_F(Bricks, LeaveOutNormalsAndKeysThatAreNotAskedFor) {
 }
 
 TEST_F(Bricks, OfABoxOfCellsUseTheSamplesAroundIt) {
-  for (const Volume& volume :
-       {noise({12, 13, 140}, 9), noise({12, 13, 140}, 9, 0.01), waves({12, 13, 140})}) {
+  for (const SampleVolume& volume :
+       {random_volume({12, 13, 140}, 9), random_volume({12, 13, 140}, 9, 0.01), waves({12, 13, 140})}) {
     for (const Box& box : {Box{{0, 0, 0}, {5, 12, 139}}, Box{{3, 4, 63}, {7, 9, 65}},
                            Box{{10, 0, 1}, {11, 3, 128}}, Box{{2, 2, 64}, {3, 3, 65}}}) {
       ExtractOptions options;
@@ -194,7 +153,7 @@ TEST_F(Bricks, OfABoxOfCellsUseTheSamplesAroundIt) {
 }
 
 TEST_F(Bricks, OfAPartWithAHaloAreThoseOfTheWhole) {
-  const Volume volume = noise({15, 16, 90}, 10, 0.003);
+  const SampleVolume volume = random_volume({15, 16, 90}, 10, 0.003);
   for (const Box& cells :
        {Box{{4, 5, 20}, {9, 11, 75}}, Box{{0, 0, 0}, {3, 15, 89}}, Box{{13, 9, 60}, {14, 15, 89}}}) {
     ExtractOptions options;
@@ -204,7 +163,7 @@ TEST_F(Bricks, OfAPartWithAHaloAreThoseOfTheWhole) {
     // Samples of the cells' corners, and one more for central differences.
     Box samples = survey::grown(cells, 1);
     for (int axis = 0; axis < 3; ++axis) samples.hi[axis] += 1;
-    const Part part = part_of(volume, survey::intersection(samples, {{0, 0, 0}, volume.size}));
+    const SamplePart part = part_of(volume, survey::intersection(samples, {{0, 0, 0}, volume.size}));
     Surface made;
     extract(part.field, 0.05F, options, made);
     EXPECT_EQ(verify::difference(made, whole), "");
@@ -216,9 +175,10 @@ TEST_F(Bricks, AreSkippedWithoutAChange) {
     return 12.3F - static_cast<float>(std::hypot(static_cast<double>(i) - 13, static_cast<double>(j) - 20,
                                                  static_cast<double>(k) - 100));
   };
-  Volume nulls = volume_of({33, 40, 150}, ball);
+  SampleVolume nulls = sampled({33, 40, 150}, ball);
   for (std::size_t n = 0; n < nulls.values.size(); n += 991) nulls.values[n] = kNan;
-  for (const Volume& volume : {volume_of({33, 40, 150}, ball), nulls, noise({10, 9, 130}, 11, 0.3)}) {
+  for (const SampleVolume& volume :
+       {sampled({33, 40, 150}, ball), nulls, random_volume({10, 9, 130}, 11, 0.3)}) {
     const BrickRanges ranges = brick_ranges(volume.field(), 2);
     const auto tables = ranges.tables();
     ExtractOptions options;
@@ -227,7 +187,7 @@ TEST_F(Bricks, AreSkippedWithoutAChange) {
     options.threads = 3;
     options.cells = Box{{1, 2, 3}, {9, 8, 127}};
     expect_defined(volume.field(), 0.5F, options, "a box");
-    const Part part = part_of(volume, {{1, 1, 5}, {10, 9, 128}});
+    const SamplePart part = part_of(volume, {{1, 1, 5}, {10, 9, 128}});
     options.cells = Box{{2, 2, 6}, {8, 8, 126}};
     expect_defined(part.field, 0.5F, options, "a part");
   }
@@ -235,8 +195,8 @@ TEST_F(Bricks, AreSkippedWithoutAChange) {
 
 TEST_F(Bricks, ThatAreSkippedAreNotRead) {
   // Below the isovalue but for one corner of the volume.
-  Volume volume =
-      volume_of({40, 40, 200}, [](auto i, auto j, auto k) { return i + j + k < 6 ? 1.0F : 0.0F; });
+  SampleVolume volume =
+      sampled({40, 40, 200}, [](auto i, auto j, auto k) { return i + j + k < 6 ? 1.0F : 0.0F; });
   const BrickRanges ranges = brick_ranges(volume.field(), 1);
   const auto tables = ranges.tables();
   ExtractOptions options;
@@ -256,7 +216,7 @@ TEST_F(Bricks, ThatAreSkippedAreNotRead) {
 }
 
 TEST_F(Bricks, RefuseWhatDoesNotFit) {
-  const Volume volume = noise({4, 4, 4}, 12);
+  const SampleVolume volume = random_volume({4, 4, 4}, 12);
   Surface made;
   const auto code_of = [&](const Field& field, float isovalue, const ExtractOptions& options) {
     try {
