@@ -96,7 +96,7 @@ void draw_band(const PreparedScene& prepared, const Scene& scene, const SurfaceL
 }  // namespace
 
 Picture render(const Scene& scene, const Camera& camera, int width, int height, int threads,
-               const SurfaceLayer* surfaces) {
+               const SurfaceLayer* surfaces, const JobContext& job) {
   if (width < 1 || height < 1 || width > kLargestPicture || height > kLargestPicture) {
     throw Error(ErrorCode::kUsage, fmt::format("a picture of {} x {} pixels cannot be drawn", width, height),
                 fmt::format("give 1 to {} pixels each way", kLargestPicture));
@@ -112,6 +112,7 @@ Picture render(const Scene& scene, const Camera& camera, int width, int height, 
 #pragma omp parallel for schedule(dynamic) num_threads(workers)
   for (int first = 0; first < height; first += kBandRows) {
     try {
+      job.check();
       draw_band(prepared, scene, surfaces, first, std::min(kBandRows, height - first), picture);
     } catch (...) {
 #pragma omp critical(footwall_render_failure)

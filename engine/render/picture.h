@@ -6,6 +6,7 @@
 #include "engine/render/camera.h"
 #include "engine/render/scene.h"
 #include "engine/render/surface_layer.h"
+#include "storage/base/job_context.h"
 
 namespace footwall::render {
 
@@ -21,9 +22,9 @@ struct Picture {
 // surfaces: drawn elsewhere through the same camera, kSamples times as many pixels each way; where both are
 // as far away the scene is seen. Null: none. Throws Error kUsage for a size outside 1..kLargestPicture,
 // kInvalid for a mesh that refers to vertices or colours that are not there, or a section without its
-// samples.
+// samples, kCancelled.
 Picture render(const Scene& scene, const Camera& camera, int width, int height, int threads,
-               const SurfaceLayer* surfaces = nullptr);
+               const SurfaceLayer* surfaces = nullptr, const JobContext& job = {});
 inline constexpr int kLargestPicture = 8192;
 // Of a pixel, each way. Odd, so that the middle one is its centre and the depth written is the picture's own.
 inline constexpr int kSamples = 3;

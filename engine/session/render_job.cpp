@@ -150,7 +150,8 @@ void run_render(const comm::Communicator& parent, const std::filesystem::path& j
   options.groups = group_options(world, job.group_threshold, job.threads);
   render::ComposeReport report;
   render::Composer composer;
-  const render::SurfaceLayer layer = composer.compose(world, drawn.surfaces(), job.camera, options, report);
+  const render::SurfaceLayer layer =
+      composer.compose(world, drawn.surfaces(), job.camera, options, report, context.part(0.75, 0.95));
 
   double read = 0;
   double busy = 0;

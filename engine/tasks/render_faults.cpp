@@ -218,8 +218,9 @@ Rendered render_faults(const project::Project& project, const RenderOptions& opt
     }
   }
   job.report(0.7, "draw");
-  const render::Picture drawn = render::render(made.scene, made.camera, options.width, options.height,
-                                               options.threads, wanted.empty() ? nullptr : &surfaces.layer);
+  const render::Picture drawn =
+      render::render(made.scene, made.camera, options.width, options.height, options.threads,
+                     wanted.empty() ? nullptr : &surfaces.layer, job);
   job.report(0.9, "write");
   formats::write_png(out, drawn.width, drawn.height, drawn.rgba);
   if (!options.depth.empty()) formats::write_tiff(options.depth, drawn.width, drawn.height, drawn.depth);

@@ -25,7 +25,8 @@ class Stopwatch {
 }  // namespace
 
 SurfaceLayer Composer::compose(comm::Communicator& world, std::span<const LitSurface> surfaces,
-                               const Camera& camera, const ComposeOptions& options, ComposeReport& report) {
+                               const Camera& camera, const ComposeOptions& options, ComposeReport& report,
+                               const JobContext& job) {
   report = {};
   const comm::Traffic before = world.traffic();
   const Halving halving(world.size());
@@ -55,7 +56,10 @@ SurfaceLayer Composer::compose(comm::Communicator& world, std::span<const LitSur
     const Rows band{first, std::min(first + band_rows, options.height)};
     // 3. Each its own rows.
     const Rows own = halving.rows(world.rank(), group.steps, band);
-    world.collectively([&] { draw(own, options, report); });
+    world.collectively([&] {
+      job.report(static_cast<double>(first) / options.height, "draw");
+      draw(own, options, report);
+    });
     // 4. Halves of pictures change hands, until everybody has its part of the whole one.
     const Rows left = merge(world, halving, group.steps, band, report);
     // 5. The parts to rank 0.

@@ -12,6 +12,7 @@
 #include "engine/render/composite/groups.h"
 #include "engine/render/surface_frame.h"
 #include "engine/render/surface_layer.h"
+#include "storage/base/job_context.h"
 
 namespace footwall::render {
 
@@ -46,9 +47,10 @@ class Composer {
   // Collective; the layer is whole on rank 0 and shows nothing elsewhere. The surfaces must be sound
   // (lit_surface.h), and no number may be used twice among all ranks. Large pictures are made in bands, so
   // that a rank holds at most kMostPixels of a picture. What fails before ranks depend on each other fails on
-  // all (AgreedError): kUsage for a size that cannot be, kMemory.
+  // all (AgreedError): kUsage for a size that cannot be, kMemory,
+  // kCancelled, looked at in each band; progress is that of the bands.
   SurfaceLayer compose(comm::Communicator& world, std::span<const LitSurface> surfaces, const Camera& camera,
-                       const ComposeOptions& options, ComposeReport& report);
+                       const ComposeOptions& options, ComposeReport& report, const JobContext& job = {});
   static constexpr std::int64_t kMostPixels = std::int64_t{1} << 24;
 
  private:
