@@ -2,16 +2,30 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace footwall::extract {
 namespace {
 
+constexpr double MachineRates::*kRates[] = {
+    &MachineRates::voxelize, &MachineRates::gather, &MachineRates::fold,   &MachineRates::fold_discontinuity,
+    &MachineRates::pack,     &MachineRates::face,   &MachineRates::finish, &MachineRates::balance};
+
+// The least of several: what else runs on the machine only makes them longer.
+MachineRates least_rates() {
+  MachineRates least = measure_computing(0.05);
+  for (int n = 0; n < 3; ++n) {
+    const MachineRates more = measure_computing(0.05);
+    for (double MachineRates::*rate : kRates) least.*rate = std::min(least.*rate, more.*rate);
+  }
+  return least;
+}
+
 TEST(MeasureRates, ArePositiveAndRepeatable) {
   constexpr double kFactor = 4;  // on a busy machine
-  const MachineRates one = measure_computing(0.1);
-  const MachineRates other = measure_computing(0.1);
-  for (double MachineRates::*rate : {&MachineRates::voxelize, &MachineRates::gather, &MachineRates::fold,
-                                     &MachineRates::fold_discontinuity, &MachineRates::pack,
-                                     &MachineRates::face, &MachineRates::finish, &MachineRates::balance}) {
+  const MachineRates one = least_rates();
+  const MachineRates other = least_rates();
+  for (double MachineRates::*rate : kRates) {
     EXPECT_GT(one.*rate, 0);
     EXPECT_LT(one.*rate, kFactor * (other.*rate));
     EXPECT_GT(one.*rate, (other.*rate) / kFactor);
@@ -26,8 +40,12 @@ TEST(MeasureRates, ArePositiveAndRepeatable) {
 }
 
 TEST(MeasureRates, FoldingBySeveralThreadsIsCountedForEach) {
-  const double one = measure_folding(1, 0.02);
-  const double two = measure_folding(2, 0.02);
+  double one = measure_folding(1, 0.02);
+  double two = measure_folding(2, 0.02);
+  for (int n = 0; n < 6; ++n) {
+    one = std::min(one, measure_folding(1, 0.02));
+    two = std::min(two, measure_folding(2, 0.02));
+  }
   EXPECT_GT(one, 0);
   // Of each thread: never much below one alone, at most a few times as long where they share a core.
   EXPECT_GT(two, one / 2);
