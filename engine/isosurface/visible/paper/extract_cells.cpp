@@ -117,10 +117,11 @@ std::vector<render::IdRun> ExtractCells::runs_of(const Surface& surface) const {
       const Triangle& corners = surface.triangles.data()[t];
       const auto k = [&](std::size_t n) { return surface.positions.data()[corners[n]].k; };
       const auto cell = static_cast<std::int64_t>(std::min({k(0), k(1), k(2)}));
-      // One that lies in the border between two bricks is the lower one's, or comes right after what is.
+      // One that lies in the border between two bricks may be the lower one's: it, and what follows in its
+      // cell, is then counted as the upper one's, if that is there; the order is kept.
       std::int64_t of = cell / kBrick;
       if (!is_set(i, j, of)) --of;
-      if (of == brick) continue;
+      if (of <= brick) continue;
       brick = of;
       runs.push_back({t, order_.first(i, j, brick * kBrick)});
     }
