@@ -9,6 +9,7 @@
 
 #include "engine/render/camera.h"
 #include "engine/render/composite/compose.h"
+#include "engine/session/group_options.h"
 #include "engine/session/job_json.h"
 #include "storage/base/hash.h"
 #include "storage/base/partial_file.h"
@@ -114,7 +115,7 @@ void write_render_bench(const RenderBench& bench, const std::filesystem::path& p
                   {"height", bench.height},
                   {"threads", bench.threads},
                   {"repeat", bench.repeat},
-                  {"group_threshold", bench.group_threshold},
+                  {"group_threshold", json_of_threshold(bench.group_threshold)},
                   {"scene",
                    {{"kind", kind->name},
                     {"file", bench.scene.file.string()},
@@ -136,7 +137,7 @@ RenderBench read_render_bench(const std::filesystem::path& path) {
     bench.height = json.at("height").get<int>();
     bench.threads = json.at("threads").get<int>();
     bench.repeat = json.at("repeat").get<int>();
-    bench.group_threshold = json.at("group_threshold").get<double>();
+    bench.group_threshold = threshold_from(json.at("group_threshold"));
     const Json& scene = json.at("scene");
     const auto* const kind = std::find_if(std::begin(kKinds), std::end(kKinds),
                                           [&](const NamedKind& k) { return scene.at("kind") == k.name; });
@@ -164,7 +165,7 @@ void run_render_bench(const comm::Communicator& parent, const std::filesystem::p
                                 static_cast<double>(bench.width) / bench.height, true);
   });
   render::ComposeOptions options{bench.width, bench.height, bench.threads, {}};
-  options.groups.threshold = bench.group_threshold;
+  options.groups = group_options(world, bench.group_threshold, bench.threads);
   render::Composer composer;
   render::ComposeReport report;
   Finished picture(

@@ -1,6 +1,7 @@
 // Measures drawing on all ranks: the answer first, then the time.
 #pragma once
 #include <filesystem>
+#include <optional>
 
 #include "engine/comm/communicator.h"
 #include "engine/session/render_bench_source.h"
@@ -15,7 +16,7 @@ struct RenderBench {
   int height = 1024;
   int threads = 1;  // of each rank
   int repeat = 5;
-  double group_threshold = 0.1;
+  std::optional<double> group_threshold = 0.1;  // none: by estimated times (group_options.h)
   BenchedScene scene;
   // {ranks, threads, triangles, pixels, picture, seconds[], phases: {extract, group, project, rasterize,
   // shade, merge, gather, assemble}, mtriangles_per_second: {...}, merged_bytes, merged_pixels, bytes_sent,

@@ -16,7 +16,7 @@ namespace {
 using Kind = session::BenchedScene::Kind;
 
 struct Options {
-  std::string size = "1024x1024", raw, dims, mesh, synthetic;
+  std::string size = "1024x1024", raw, dims, mesh, synthetic, group_threshold;
   std::optional<float> value;
   std::optional<std::int64_t> triangles;
   session::RenderBench bench;
@@ -63,6 +63,7 @@ console::Output run(Options& options, const console::Console& console) {
   bench.width = width;
   bench.height = height;
   bench.scene = scene_of(options);
+  if (!options.group_threshold.empty()) bench.group_threshold = group_threshold_from(options.group_threshold);
   const std::string result = tasks::bench_render(bench, options.engine.launch(), console.job());
   console::Output output;
   output.json = console::Json::parse(result);
@@ -106,9 +107,9 @@ void add_bench_render(console::Program& program, CLI::App* group) {
   command->add_option("--synthetic", options->synthetic, "sphere (a mesh) or gyroid (a volume)");
   command->add_option("--triangles", options->triangles, "About how many it has (default 1000000)");
   command->add_option("--repeat", options->bench.repeat, "Pictures that are measured (default 5)");
-  command->add_option("--group-threshold", options->bench.group_threshold,
+  command->add_option("--group-threshold", options->group_threshold,
                       "Ranks share triangles rather than pictures up to this share of a picture's bytes "
-                      "(default 0.1)");
+                      "(default 0.1), or auto: where it is estimated to be quicker");
   options->engine.add_to(*command);
 }
 
