@@ -121,7 +121,8 @@ void write_render_bench(const RenderBench& bench, const std::filesystem::path& p
                     {"file", bench.scene.file.string()},
                     {"dims", bench.scene.dims},
                     {"value", bench.scene.value},
-                    {"triangles", bench.scene.triangles}}},
+                    {"triangles", bench.scene.triangles},
+                    {"pyramid", bench.scene.pyramid}}},
                   {"result", bench.result.string()}};
   write_job_json(json, path, "the path " + bench.scene.file.string() + ": it is not UTF-8");
 }
@@ -147,6 +148,7 @@ RenderBench read_render_bench(const std::filesystem::path& path) {
     bench.scene.dims = scene.at("dims").get<survey::Index>();
     bench.scene.value = scene.at("value").get<float>();
     bench.scene.triangles = scene.at("triangles").get<std::int64_t>();
+    bench.scene.pyramid = scene.at("pyramid").get<bool>();
     bench.result = json.at("result").get<std::string>();
     if (bench.threads < 1 || bench.repeat < 1) throw odd;
     return bench;
@@ -214,6 +216,12 @@ void run_render_bench(const comm::Communicator& parent, const std::filesystem::p
               {"merged_bytes", world.sum(report.merged_bytes)},
               {"merged_pixels", world.sum(report.merged_pixels)},
               {"group_steps", world.maximum(std::int64_t{report.group_steps})}};
+  constexpr double kMiB = 1 << 20;
+  const auto samples = static_cast<double>(world.maximum(source.samples()));
+  result["samples_mib"] =
+      source.is_volume() ? Json(samples * static_cast<double>(sizeof(float)) / kMiB) : Json();
+  const double pyramid = world.maximum(source.pyramid_seconds().value_or(0));
+  result["pyramid_seconds"] = bench.scene.pyramid ? Json(pyramid) : Json();
   for (const Phase& phase : phases) {
     const double seconds = median(phase.seconds);
     result["phases"][phase.name] = seconds;

@@ -134,8 +134,22 @@ class BenchRender(FootwallTest):
                         file.write(struct.pack("<f", (x - 11) ** 2 + (y - 12) ** 2 + (z - 11.5) ** 2))
         raw = ("bench", "render", "--raw", "ball.raw", "--dims", f"{n},{n},{n}", "--value", 70, "--size", "128x128",
                "--repeat", 1)
-        pictures = {self.footwall(*raw, "--ranks", ranks)["picture"] for ranks in (1, 3)}
-        self.assertEqual(len(pictures), 1)
+        made = [self.footwall(*raw, "--ranks", ranks, *pyramid) for ranks in (1, 3, 4, 7)
+                for pyramid in ((), ("--pyramid",))]
+        self.assertEqual(len({(each["picture"], each["triangles"]) for each in made}), 1)
+        self.assertEqual([each["pyramid_seconds"] is None for each in made], 4 * [True, False])
+        # Each rank has its own part, with a halo.
+        mib = 4 * n**3 / 2**20
+        self.assertAlmostEqual(made[0]["samples_mib"], mib)
+        self.assertLess(made[4]["samples_mib"], 0.4 * mib)
+        self.refused(2, "bench", "render", "--synthetic", "sphere", "--pyramid")
+        # Ranks without a cell.
+        with open(self.path("slab.raw"), "wb") as file:
+            file.write(struct.pack("<18f", *(k - 0.5 for k in (0, 1, 2)), *(15 * [1.0])))
+        thin = [self.footwall("bench", "render", "--raw", "slab.raw", "--dims", "3,3,2", "--value", 0, "--size", "64x64",
+                              "--repeat", 1, "--ranks", ranks, "--pyramid") for ranks in (1, 5)]
+        self.assertEqual(thin[0]["picture"], thin[1]["picture"])
+        self.assertGreater(thin[0]["triangles"], 0)
         # What we write ourselves, text or binary, can be drawn.
         project = self.synthetic()
         for suffix in ("ply", "stl"):
