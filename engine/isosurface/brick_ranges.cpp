@@ -56,57 +56,74 @@ HWY_EXPORT(fold_row);
 
 constexpr std::int64_t kStep = 8;
 
-// The samples of brick n on an axis.
-std::int64_t first_of(std::int64_t n) {
-  return n * kStep;
-}
-std::int64_t last_of(std::int64_t n, std::int64_t size) {
-  return std::min(n * kStep + kStep, size - 1);
+// The samples of brick n on an axis that the field has, counted from its first.
+struct Samples {
+  std::int64_t begin;
+  std::int64_t end;  // at or before begin: none
+};
+Samples samples_of(const Field& field, int axis, std::int64_t n) {
+  return {std::max<std::int64_t>(0, n * kStep - field.origin[axis]),
+          std::min(n * kStep + kStep + 1 - field.origin[axis], field.size[axis])};
 }
 
 // All bricks [a][b][c] of a row.
-void fold_bricks(const Field& volume, std::int64_t a, std::int64_t b, BrickRanges& into) {
+void fold_bricks(const Field& field, std::int64_t a, std::int64_t b, BrickRanges& into) {
   constexpr float kInf = std::numeric_limits<float>::infinity();
-  const auto size = static_cast<std::size_t>(volume.size[2]);
+  const auto size = static_cast<std::size_t>(field.size[2]);
   std::vector<float> least(size, kInf);
   std::vector<float> greatest(size, -kInf);
   std::vector<float> nulls(size, 0);
   const auto fold = HWY_DYNAMIC_DISPATCH(fold_row);
-  for (std::int64_t i = first_of(a); i <= last_of(a, volume.size[0]); ++i) {
-    for (std::int64_t j = first_of(b); j <= last_of(b, volume.size[1]); ++j) {
-      fold(volume.values.data() + (i * volume.size[1] + j) * volume.size[2], size, least.data(),
-           greatest.data(), nulls.data());
+  const Samples along_i = samples_of(field, 0, a);
+  const Samples along_j = samples_of(field, 1, b);
+  for (std::int64_t i = along_i.begin; i < along_i.end; ++i) {
+    for (std::int64_t j = along_j.begin; j < along_j.end; ++j) {
+      fold(field.values.data() + (i * field.size[1] + j) * field.size[2], size, least.data(), greatest.data(),
+           nulls.data());
     }
   }
   for (std::int64_t c = 0; c < into.dims[2]; ++c) {
     const auto brick = static_cast<std::size_t>((a * into.dims[1] + b) * into.dims[2] + c);
-    const auto from = first_of(c);
-    const auto to = last_of(c, volume.size[2]) + 1;
-    into.min[brick] = *std::min_element(least.begin() + from, least.begin() + to);
-    into.max[brick] = *std::max_element(greatest.begin() + from, greatest.begin() + to);
-    const bool null = std::any_of(nulls.begin() + from, nulls.begin() + to, [](float n) { return n > 0; });
-    into.has_null[brick] = null ? 1 : 0;
+    const Samples along_k = samples_of(field, 2, c);
+    into.min[brick] = kInf;
+    into.max[brick] = -kInf;
+    into.has_null[brick] = 0;
+    for (std::int64_t k = along_k.begin; k < along_k.end; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      into.min[brick] = std::min(into.min[brick], least[at]);
+      into.max[brick] = std::max(into.max[brick], greatest[at]);
+      if (nulls[at] > 0) into.has_null[brick] = 1;
+    }
   }
+}
+
+bool is_in_its_volume(const Field& field) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (field.size[axis] < 1 || field.origin[axis] < 0 ||
+        field.origin[axis] + field.size[axis] > field.volume_size[axis])
+      return false;
+  }
+  return true;
 }
 
 }  // namespace
 
-BrickRanges brick_ranges(const Field& volume, int threads) {
-  if (volume.size != volume.volume_size || volume.size[0] < 1 || volume.size[1] < 1 || volume.size[2] < 1) {
-    throw Error(ErrorCode::kInvalid, "bricks are made of a whole volume");
+BrickRanges brick_ranges(const Field& field, int threads) {
+  if (!is_in_its_volume(field)) {
+    throw Error(ErrorCode::kInvalid, "bricks are made of samples of a volume");
   }
   voxelize::apply_forced_simd();
   BrickRanges ranges;
   std::size_t count = 1;
   for (int axis = 0; axis < 3; ++axis) {
-    ranges.dims[axis] = std::max<std::int64_t>(1, (volume.size[axis] - 1 + kStep - 1) / kStep);
+    ranges.dims[axis] = std::max<std::int64_t>(1, (field.volume_size[axis] - 1 + kStep - 1) / kStep);
     count *= static_cast<std::size_t>(ranges.dims[axis]);
   }
   ranges.min.resize(count);
   ranges.max.resize(count);
   ranges.has_null.resize(count);
   detail::for_each_in_parallel(ranges.dims[0] * ranges.dims[1], threads, [&](std::int64_t row, int) {
-    fold_bricks(volume, row / ranges.dims[1], row % ranges.dims[1], ranges);
+    fold_bricks(field, row / ranges.dims[1], row % ranges.dims[1], ranges);
   });
   return ranges;
 }

@@ -18,7 +18,9 @@ struct BrickRanges {
   Bricks tables() const { return {dims, min, max, has_null}; }
 };
 
-// Of a field that is a whole volume; reads every sample. Throws Error kInvalid for a part of a volume.
-BrickRanges brick_ranges(const Field& volume, int threads);
+// Reads every sample of the field. The bricks are those of the whole volume; of a part of it they are right
+// for the cells of the field, and a brick without a sample there is as if all were null. Throws Error
+// kInvalid for a field without samples, or one that does not lie in its volume.
+BrickRanges brick_ranges(const Field& field, int threads);
 
 }  // namespace footwall::isosurface

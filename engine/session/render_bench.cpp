@@ -9,6 +9,7 @@
 
 #include "engine/render/camera.h"
 #include "engine/render/composite/compose.h"
+#include "engine/session/group_options.h"
 #include "engine/session/job_json.h"
 #include "storage/base/hash.h"
 #include "storage/base/partial_file.h"
@@ -114,13 +115,14 @@ void write_render_bench(const RenderBench& bench, const std::filesystem::path& p
                   {"height", bench.height},
                   {"threads", bench.threads},
                   {"repeat", bench.repeat},
-                  {"group_threshold", bench.group_threshold},
+                  {"group_threshold", json_of_threshold(bench.group_threshold)},
                   {"scene",
                    {{"kind", kind->name},
                     {"file", bench.scene.file.string()},
                     {"dims", bench.scene.dims},
                     {"value", bench.scene.value},
-                    {"triangles", bench.scene.triangles}}},
+                    {"triangles", bench.scene.triangles},
+                    {"pyramid", bench.scene.pyramid}}},
                   {"result", bench.result.string()}};
   write_job_json(json, path, "the path " + bench.scene.file.string() + ": it is not UTF-8");
 }
@@ -136,7 +138,7 @@ RenderBench read_render_bench(const std::filesystem::path& path) {
     bench.height = json.at("height").get<int>();
     bench.threads = json.at("threads").get<int>();
     bench.repeat = json.at("repeat").get<int>();
-    bench.group_threshold = json.at("group_threshold").get<double>();
+    bench.group_threshold = threshold_from(json.at("group_threshold"));
     const Json& scene = json.at("scene");
     const auto* const kind = std::find_if(std::begin(kKinds), std::end(kKinds),
                                           [&](const NamedKind& k) { return scene.at("kind") == k.name; });
@@ -146,6 +148,7 @@ RenderBench read_render_bench(const std::filesystem::path& path) {
     bench.scene.dims = scene.at("dims").get<survey::Index>();
     bench.scene.value = scene.at("value").get<float>();
     bench.scene.triangles = scene.at("triangles").get<std::int64_t>();
+    bench.scene.pyramid = scene.at("pyramid").get<bool>();
     bench.result = json.at("result").get<std::string>();
     if (bench.threads < 1 || bench.repeat < 1) throw odd;
     return bench;
@@ -164,7 +167,7 @@ void run_render_bench(const comm::Communicator& parent, const std::filesystem::p
                                 static_cast<double>(bench.width) / bench.height, true);
   });
   render::ComposeOptions options{bench.width, bench.height, bench.threads, {}};
-  options.groups.threshold = bench.group_threshold;
+  options.groups = group_options(world, bench.group_threshold, bench.threads);
   render::Composer composer;
   render::ComposeReport report;
   Finished picture(
@@ -213,6 +216,12 @@ void run_render_bench(const comm::Communicator& parent, const std::filesystem::p
               {"merged_bytes", world.sum(report.merged_bytes)},
               {"merged_pixels", world.sum(report.merged_pixels)},
               {"group_steps", world.maximum(std::int64_t{report.group_steps})}};
+  constexpr double kMiB = 1 << 20;
+  const auto samples = static_cast<double>(world.maximum(source.samples()));
+  result["samples_mib"] =
+      source.is_volume() ? Json(samples * static_cast<double>(sizeof(float)) / kMiB) : Json();
+  const double pyramid = world.maximum(source.pyramid_seconds().value_or(0));
+  result["pyramid_seconds"] = bench.scene.pyramid ? Json(pyramid) : Json();
   for (const Phase& phase : phases) {
     const double seconds = median(phase.seconds);
     result["phases"][phase.name] = seconds;

@@ -72,20 +72,34 @@ BenchSource::BenchSource(comm::Communicator& world, const BenchedScene& scene, i
     if (is_made && (scene.triangles < 8 || scene.triangles > kMostTriangles))
       throw Error(ErrorCode::kUsage, fmt::format("{} triangles cannot be made", scene.triangles),
                   fmt::format("give --triangles 8 to {}", kMostTriangles));
-    if (scene.kind != Kind::kRaw) return;
-    // The first axis of the file is the fastest: our samples.
-    size_ = {scene.dims[2], scene.dims[1], scene.dims[0]};
-    const formats::raw::RawFile file(scene.file, size_);
-    samples_.resize(static_cast<std::size_t>(size_[0] * size_[1] * size_[2]));
-    file.read_block({{0, 0, 0}, size_}, samples_);
   });
+  if (scene.kind == Kind::kRaw) read_samples(world, scene);
   if (scene.kind == Kind::kGyroid) sample_gyroid(world, scene.triangles);
   if (scene.kind == Kind::kSphere) make_sphere(world, scene.triangles);
   if (scene.kind == Kind::kMesh) take_share(world, scene.file);
-  if (is_volume()) {
-    bounds_.hi = {static_cast<double>(size_[0] - 1), static_cast<double>(size_[1] - 1),
-                  static_cast<double>(size_[2] - 1)};
-  }
+  if (!is_volume()) return;
+  const survey::Index& size = pillars_->volume();
+  bounds_.hi = {static_cast<double>(size[0] - 1), static_cast<double>(size[1] - 1),
+                static_cast<double>(size[2] - 1)};
+  if (scene.pyramid) make_pyramid(world);
+}
+
+void BenchSource::take_pillar(comm::Communicator& world, const survey::Index& size) {
+  pillars_.emplace(size, world.size(), isosurface::Interleaving{1, 1, 1});
+  const std::vector<survey::Box> cells = pillars_->of_rank(world.rank());
+  if (cells.empty()) return;  // more ranks than cells
+  box_ = pillars_->samples_of(cells.front(), true);
+  samples_.resize(static_cast<std::size_t>(box_.count()));
+}
+
+void BenchSource::read_samples(comm::Communicator& world, const BenchedScene& scene) {
+  world.collectively([&] {
+    // The first axis of the file is the fastest: our samples.
+    const survey::Index size{scene.dims[2], scene.dims[1], scene.dims[0]};
+    const formats::raw::RawFile file(scene.file, size);
+    take_pillar(world, size);
+    if (!samples_.empty()) file.read_block(box_, samples_);
+  });
 }
 
 void BenchSource::sample_gyroid(comm::Communicator& world, std::int64_t triangles) {
@@ -98,20 +112,36 @@ void BenchSource::sample_gyroid(comm::Communicator& world, std::int64_t triangle
   const Waves waves =
       waves_of(world, static_cast<std::size_t>(n), 2 * std::numbers::pi * kPeriods / static_cast<double>(n));
   world.collectively([&] {
-    size_ = {n, n, n};
-    samples_.resize(static_cast<std::size_t>(n * n * n));
-    const auto count = static_cast<std::size_t>(n);
+    take_pillar(world, {n, n, n});
+    if (samples_.empty()) return;
+    const auto& [lo, hi] = box_;
 #pragma omp parallel for num_threads(threads_)
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t j = 0; j < count; ++j) {
-        for (std::size_t k = 0; k < count; ++k) {
-          samples_[(i * count + j) * count + k] = waves.sine[i] * waves.cosine[j] +
-                                                  waves.sine[j] * waves.cosine[k] +
-                                                  waves.sine[k] * waves.cosine[i];
+    for (std::int64_t i = lo[0]; i < hi[0]; ++i) {
+      float* to = samples_.data() + (i - lo[0]) * box_.size(1) * box_.size(2);
+      const auto a = static_cast<std::size_t>(i);
+      for (auto b = static_cast<std::size_t>(lo[1]); b < static_cast<std::size_t>(hi[1]); ++b) {
+        for (auto c = static_cast<std::size_t>(lo[2]); c < static_cast<std::size_t>(hi[2]); ++c) {
+          *to++ = waves.sine[a] * waves.cosine[b] + waves.sine[b] * waves.cosine[c] +
+                  waves.sine[c] * waves.cosine[a];
         }
       }
     }
   });
+}
+
+void BenchSource::make_pyramid(comm::Communicator& world) {
+  world.collectively([&] {
+    pyramid_seconds_ = 0;
+    if (samples_.empty()) return;
+    const double start = omp_get_wtime();
+    ranges_ = isosurface::brick_ranges(field(), threads_);
+    pyramid_seconds_ = omp_get_wtime() - start;
+    bricks_ = ranges_.tables();
+  });
+}
+
+isosurface::Field BenchSource::field() const {
+  return {samples_, {box_.size(0), box_.size(1), box_.size(2)}, box_.lo, pillars_->volume()};
 }
 
 // Circles of latitude from pole to pole; each rank has some of the belts between them.
@@ -179,12 +209,12 @@ void BenchSource::take_share(comm::Communicator& world, const std::filesystem::p
 
 void BenchSource::prepare(comm::Communicator& world) {
   if (!is_volume()) return;
-  const isosurface::Pillars pillars(size_, world.size(), {1, 1, 1});
   isosurface::ParallelOptions options;
   options.threads = threads_;
-  const isosurface::Field field{samples_, size_, {0, 0, 0}, size_};
+  options.bricks = bricks_ ? &*bricks_ : nullptr;
+  options.cuts_around_bricks = false;
   isosurface::extract_parallel(
-      world, pillars, [&](const survey::Box&) { return field; }, value_, options, {}, extraction_);
+      world, *pillars_, [&](const survey::Box&) { return field(); }, value_, options, {}, extraction_);
   world.collectively([&] {
     pieces_.clear();
     pieces_.add(extraction_.pieces, 0, kColour, {});

@@ -8,6 +8,7 @@
 #include "engine/isosurface/parallel/stored_samples.h"
 #include "engine/render/composite/compose.h"
 #include "engine/session/drawn_pieces.h"
+#include "engine/session/group_options.h"
 #include "engine/session/job_json.h"
 #include "storage/base/partial_file.h"
 
@@ -74,7 +75,7 @@ void write_render_job(const RenderJob& job, const std::filesystem::path& path) {
             {"width", job.width},
             {"height", job.height},
             {"threads", job.threads},
-            {"group_threshold", job.group_threshold},
+            {"group_threshold", json_of_threshold(job.group_threshold)},
             {"interleave", job.interleave},
             {"camera", json_of(job.camera)},
             {"layer", job.layer.string()},
@@ -99,7 +100,7 @@ RenderJob read_render_job(const std::filesystem::path& path) {
     job.width = json.at("width").get<int>();
     job.height = json.at("height").get<int>();
     job.threads = json.at("threads").get<int>();
-    job.group_threshold = json.at("group_threshold").get<double>();
+    job.group_threshold = threshold_from(json.at("group_threshold"));
     job.interleave = json.at("interleave").get<std::string>();
     job.camera = camera_from(json.at("camera"));
     job.layer = json.at("layer").get<std::string>();
@@ -146,7 +147,7 @@ void run_render(const comm::Communicator& parent, const std::filesystem::path& j
     context.report(0.75, "draw");
   });
   render::ComposeOptions options{job.width, job.height, job.threads, {}};
-  options.groups.threshold = job.group_threshold;
+  options.groups = group_options(world, job.group_threshold, job.threads);
   render::ComposeReport report;
   render::Composer composer;
   const render::SurfaceLayer layer = composer.compose(world, drawn.surfaces(), job.camera, options, report);

@@ -3,6 +3,7 @@
 // else is drawn into. The layer's bytes depend on the job alone, not on the number of ranks.
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,9 @@ struct RenderJob {
   };
   int width = 0;  // of the layer
   int height = 0;
-  int threads = 1;                  // of each rank
-  double group_threshold = 0.1;     // groups.h
-  std::string interleave = "auto";  // or "AxB", "AxBxC" (pillars.h)
+  int threads = 1;                              // of each rank
+  std::optional<double> group_threshold = 0.1;  // none: by estimated times (group_options.h)
+  std::string interleave = "auto";              // or "AxB", "AxBxC" (pillars.h)
   render::Camera camera;
   std::vector<Isosurface> isosurfaces;
   std::filesystem::path layer;  // surface_layer.h

@@ -1,5 +1,6 @@
 // Isosurfaces of a project's volumes, drawn by the engine for a picture.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ std::vector<WantedIsosurface> isosurfaces_from(const project::Project& project,
 
 struct IsosurfaceOptions {
   session::LaunchOptions launch;
-  double group_threshold = 0.1;
+  std::optional<double> group_threshold = 0.1;  // none: by estimated times
 };
 
 struct DrawnIsosurfaces {

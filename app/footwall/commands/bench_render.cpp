@@ -16,7 +16,7 @@ namespace {
 using Kind = session::BenchedScene::Kind;
 
 struct Options {
-  std::string size = "1024x1024", raw, dims, mesh, synthetic;
+  std::string size = "1024x1024", raw, dims, mesh, synthetic, group_threshold;
   std::optional<float> value;
   std::optional<std::int64_t> triangles;
   session::RenderBench bench;
@@ -24,7 +24,7 @@ struct Options {
 };
 
 session::BenchedScene scene_of(const Options& options) {
-  session::BenchedScene scene;
+  session::BenchedScene scene = options.bench.scene;
   const int given =
       (options.raw.empty() ? 0 : 1) + (options.mesh.empty() ? 0 : 1) + (options.synthetic.empty() ? 0 : 1);
   if (given != 1) {
@@ -63,6 +63,10 @@ console::Output run(Options& options, const console::Console& console) {
   bench.width = width;
   bench.height = height;
   bench.scene = scene_of(options);
+  if (bench.scene.pyramid && bench.scene.kind != Kind::kRaw && bench.scene.kind != Kind::kGyroid)
+    throw Error(ErrorCode::kUsage, "a mesh has no bricks to skip",
+                "give --pyramid with --raw or --synthetic gyroid");
+  if (!options.group_threshold.empty()) bench.group_threshold = group_threshold_from(options.group_threshold);
   const std::string result = tasks::bench_render(bench, options.engine.launch(), console.job());
   console::Output output;
   output.json = console::Json::parse(result);
@@ -83,6 +87,13 @@ console::Output run(Options& options, const console::Console& console) {
     output.text += fmt::format("{:>10} {:>9.2f} ms {:>10} Mtriangle/s\n", phase,
                                1e3 * output.json.at("phases").at(phase).get<double>(),
                                rate.is_null() ? "-" : fmt::format("{:.1f}", rate.get<double>()));
+  }
+  if (!output.json.at("samples_mib").is_null())
+    output.text +=
+        fmt::format("{:.1f} MiB of samples on a rank\n", output.json.at("samples_mib").get<double>());
+  if (!output.json.at("pyramid_seconds").is_null()) {
+    output.text += fmt::format("the bricks' ranges were made once, in {:.2f} ms\n",
+                               1e3 * output.json.at("pyramid_seconds").get<double>());
   }
   output.text += fmt::format(
       "merged {} pixels in {} bytes; {} bytes in {} messages in all\n",
@@ -105,10 +116,12 @@ void add_bench_render(console::Program& program, CLI::App* group) {
   command->add_option("--mesh", options->mesh, "A PLY or binary STL file");
   command->add_option("--synthetic", options->synthetic, "sphere (a mesh) or gyroid (a volume)");
   command->add_option("--triangles", options->triangles, "About how many it has (default 1000000)");
+  command->add_flag("--pyramid", options->bench.scene.pyramid,
+                    "Of a volume: skip bricks by their smallest and largest values");
   command->add_option("--repeat", options->bench.repeat, "Pictures that are measured (default 5)");
-  command->add_option("--group-threshold", options->bench.group_threshold,
+  command->add_option("--group-threshold", options->group_threshold,
                       "Ranks share triangles rather than pictures up to this share of a picture's bytes "
-                      "(default 0.1)");
+                      "(default 0.1), or auto: where it is estimated to be quicker");
   options->engine.add_to(*command);
 }
 

@@ -46,6 +46,14 @@ std::array<int, 2> picture_size_from(const std::string& text) {
   return {static_cast<int>(*width), static_cast<int>(*height)};
 }
 
+std::optional<double> group_threshold_from(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  const auto threshold = text::number(text);
+  if (!threshold || !std::isfinite(*threshold))
+    throw wrong("--group-threshold", text, "auto, or a number as 0.1");
+  return threshold;
+}
+
 std::array<double, 2> range_from(const std::string& text, const std::string& option) {
   const auto parts = text::split(text, ':');
   const auto lo = parts.size() == 2 ? text::number(parts[0]) : std::nullopt;

@@ -14,6 +14,8 @@ namespace footwall::commands {
 // "256x256x128" or "1600x1000"; throws Error kUsage naming the option.
 std::array<std::int64_t, 3> dims_from(const std::string& text, const std::string& option);
 std::array<int, 2> picture_size_from(const std::string& text);
+// Of --group-threshold: a number, or "auto" for none.
+std::optional<double> group_threshold_from(const std::string& text);
 // "lo:hi"
 std::array<double, 2> range_from(const std::string& text, const std::string& option);
 

@@ -13,7 +13,7 @@ namespace footwall::commands {
 namespace {
 
 struct Options {
-  std::string project, out, size = "1600x1000", range, depth, save_view;
+  std::string project, out, size = "1600x1000", range, depth, save_view, group_threshold;
   bool faults = false;
   EngineOptions engine;
   tasks::RenderOptions how;
@@ -32,6 +32,8 @@ console::Output run(Options& options, const console::Console& console) {
   }
   if (options.how.threads > 0) options.engine.threads = options.how.threads;
   options.how.drawing.launch = options.engine.launch();
+  if (!options.group_threshold.empty())
+    options.how.drawing.group_threshold = group_threshold_from(options.group_threshold);
   options.how.depth = options.depth;
   const auto [width, height] = picture_size_from(options.size);
   options.how.faults = options.faults;
@@ -114,9 +116,10 @@ void add_render(console::Program& program) {
   command->add_option("--ranks", options->engine.ranks,
                       "MPI ranks for isosurfaces (default: the tasks of Slurm's allocation, else the smaller "
                       "of 4 and the usable cores)");
-  command->add_option("--group-threshold", how.drawing.group_threshold,
-                      "Ranks share triangles rather than pictures up to this share of a picture's bytes "
-                      "(default 0.1; the picture is the same for all)");
+  command->add_option(
+      "--group-threshold", options->group_threshold,
+      "Ranks share triangles rather than pictures up to this share of a picture's bytes "
+      "(default 0.1), or auto: where it is estimated to be quicker; the picture is the same for all");
   command->add_option("--threads", how.threads, "Threads (default: all; for isosurfaces 1 a rank)");
 }
 

@@ -22,7 +22,8 @@ double processor_seconds() {
 // Blocks of one pillar in the order of the triangles in its rows: those above each other ascend by sample.
 std::vector<survey::Box> blocks_of_rank(const Pillars& pillars, int rank, const ParallelOptions& options,
                                         float isovalue) {
-  const Wanted wanted{options.bricks, isovalue, options.cap, options.block_cells};
+  const Bricks* const around = options.cuts_around_bricks ? options.bricks : nullptr;
+  const Wanted wanted{around, isovalue, options.cap, options.block_cells};
   std::vector<survey::Box> blocks;
   for (const survey::Box& cells : pillars.of_rank(rank)) {
     const std::vector<survey::Box> some = active_blocks(cells, wanted);

@@ -30,6 +30,9 @@ struct ParallelOptions {
   const Bricks* bricks = nullptr;  // of the whole volume, or none: every cell is looked at
   // Whether the kernel is told of them, too; kernels other than `extract` refuse that.
   bool kernel_skips = true;
+  // Whether pillars are cut around bricks that may be active, so that the others are not read. A volume in
+  // memory is quicker in one piece.
+  bool cuts_around_bricks = true;
   std::int64_t block_cells = std::int64_t{1} << 24;  // that are read at once: 64 MiB
 };
 

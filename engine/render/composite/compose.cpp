@@ -38,8 +38,7 @@ SurfaceLayer Composer::compose(comm::Communicator& world, std::span<const LitSur
   Group group;
   {
     const Stopwatch time(report.seconds.group);
-    group = form_groups(world, halving, surfaces, options.height,
-                        static_cast<std::int64_t>(sizeof(Visible)) * options.width, options.groups);
+    group = form_groups(world, halving, surfaces, camera, options.width, options.height, options.groups);
   }
   report.group_steps = group.steps;
 

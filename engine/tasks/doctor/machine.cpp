@@ -13,6 +13,7 @@
 #include "engine/session/launch.h"
 #include "engine/session/private_folder.h"
 #include "storage/base/error.h"
+#include "storage/base/usable_memory.h"
 #include "storage/project/file_system.h"
 #include "storage/project/sqlite_features.h"
 

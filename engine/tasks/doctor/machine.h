@@ -13,12 +13,4 @@ Finding check_temporary_folder();
 Finding check_text();
 Finding check_sqlite();
 
-// What this process may use, in bytes: the least of the memory that is free, the limits of its control groups
-// less what they use, and its resource limit. root: where /proc and /sys are.
-struct UsableMemory {
-  std::int64_t bytes = 0;
-  std::int64_t machine = 0;  // that the machine has
-};
-UsableMemory usable_memory(const std::filesystem::path& root = "/");
-
 }  // namespace footwall::tasks

@@ -35,7 +35,8 @@ class RenderIsosurface(FootwallTest):
         project = self.synthetic()
         self.footwall("triangulate", project)
         seen = set()
-        for ranks, threshold in ((1, 0.1), (2, 0), (3, 1e9), (4, 0.1), (7, 10)):
+        for ranks, threshold in ((1, 0.1), (2, 0), (3, 1e9), (4, 0.1), (7, 10), (1, "auto"), (2, "auto"), (3, "auto"),
+                                 (4, "auto"), (7, "auto")):
             made = self.footwall("render", project, "--faults", "--section", "inline=middle", "--isosurface",
                                  "amplitude=0.5", "--isosurface", "amplitude=-0.5,teal", "--ranks", ranks,
                                  "--group-threshold", threshold, *self.SMALL, "--out", "p.png", "--depth", "p.tif")
@@ -113,13 +114,14 @@ class RenderIsosurface(FootwallTest):
 class BenchRender(FootwallTest):
     def test_ranks_threads_and_groups_give_one_picture(self):
         pictures = set()
-        for ranks, threads, threshold in ((1, 1, 0.1), (1, 3, 0.1), (2, 2, 0), (3, 1, 1e9), (5, 1, 0.1)):
+        for ranks, threads, threshold in ((1, 1, 0.1), (1, 3, 0.1), (2, 2, 0), (3, 1, 1e9), (5, 1, 0.1), (3, 2, "auto")):
             made = self.footwall("bench", "render", "--synthetic", "sphere", "--triangles", 40000, "--size", "256x200",
                                  "--ranks", ranks, "--threads", threads, "--group-threshold", threshold, "--repeat", 2)
             self.assertAlmostEqual(made["triangles"], 40000, delta=1000)
             self.assertEqual(len(made["seconds"]), 2)
             self.assertTrue(made["checked"])
-            self.assertEqual(made["merged_pixels"] > 0, ranks > 1 and threshold != 1e9)
+            if threshold != "auto":
+                self.assertEqual(made["merged_pixels"] > 0, ranks > 1 and threshold != 1e9)
             pictures.add(made["picture"])
         self.assertEqual(len(pictures), 1)
 
@@ -132,8 +134,22 @@ class BenchRender(FootwallTest):
                         file.write(struct.pack("<f", (x - 11) ** 2 + (y - 12) ** 2 + (z - 11.5) ** 2))
         raw = ("bench", "render", "--raw", "ball.raw", "--dims", f"{n},{n},{n}", "--value", 70, "--size", "128x128",
                "--repeat", 1)
-        pictures = {self.footwall(*raw, "--ranks", ranks)["picture"] for ranks in (1, 3)}
-        self.assertEqual(len(pictures), 1)
+        made = [self.footwall(*raw, "--ranks", ranks, *pyramid) for ranks in (1, 3, 4, 7)
+                for pyramid in ((), ("--pyramid",))]
+        self.assertEqual(len({(each["picture"], each["triangles"]) for each in made}), 1)
+        self.assertEqual([each["pyramid_seconds"] is None for each in made], 4 * [True, False])
+        # Each rank has its own part, with a halo.
+        mib = 4 * n**3 / 2**20
+        self.assertAlmostEqual(made[0]["samples_mib"], mib)
+        self.assertLess(made[4]["samples_mib"], 0.4 * mib)
+        self.refused(2, "bench", "render", "--synthetic", "sphere", "--pyramid")
+        # Ranks without a cell.
+        with open(self.path("slab.raw"), "wb") as file:
+            file.write(struct.pack("<18f", *(k - 0.5 for k in (0, 1, 2)), *(15 * [1.0])))
+        thin = [self.footwall("bench", "render", "--raw", "slab.raw", "--dims", "3,3,2", "--value", 0, "--size", "64x64",
+                              "--repeat", 1, "--ranks", ranks, "--pyramid") for ranks in (1, 5)]
+        self.assertEqual(thin[0]["picture"], thin[1]["picture"])
+        self.assertGreater(thin[0]["triangles"], 0)
         # What we write ourselves, text or binary, can be drawn.
         project = self.synthetic()
         for suffix in ("ply", "stl"):
@@ -155,6 +171,8 @@ class BenchRender(FootwallTest):
         self.refused(2, "bench", "render")
         self.refused(2, "bench", "render", "--raw", "ball.raw", "--value", 3)
         self.refused(2, "bench", "render", "--synthetic", "cube")
+        for words in ("often", "nan", "inf"):
+            self.refused(2, "bench", "render", "--synthetic", "sphere", "--group-threshold", words)
         self.refused(2, "bench", "render", "--synthetic", "sphere", "--repeat", 0)
 
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "mpi/exchange/profiled_calls.h"
 #include "unit/render/sample_surfaces.h"
@@ -186,6 +187,92 @@ TEST(Compose, GroupsMayHaveSeveralSizes) {
   }
   EXPECT_TRUE(std::is_sorted(most_steps.begin(), most_steps.end()));
   EXPECT_EQ(most_steps.back(), Halving(world.size()).steps());
+}
+
+// Partners decide from numbers that both have: a rank without room is a refusal of both, and the others go
+// on.
+TEST(Compose, ARankWithoutRoomRefusesForItsPartner) {
+  comm::Communicator world(MPI_COMM_WORLD);
+  Case c{two_balls(60), 30, {}};
+  for (int n = 0; n < 2 * world.size(); ++n) c.rank_of_block.push_back(n % world.size());
+  const std::vector<Mesh> mine = share_of(c, world.rank());
+  const Pixels want = drawn_alone(views(c.whole), camera_at(300), kWidth, kHeight);
+  for (int poor = 0; poor < world.size(); ++poor) {
+    const std::int64_t memory = world.rank() == poor ? 0 : 1 << 30;
+    Composer composer;
+    ComposeReport report;
+    const Pixels got = pixels_of(
+        composer.compose(world, views(mine), camera_at(300), {kWidth, kHeight, 1, {1e9, memory}}, report));
+    if (world.rank() == 0) {
+      EXPECT_TRUE(got == want) << "rank " << poor << " has no room";
+    }
+    const Halving halving(world.size());
+    int first_partner_step = 0;
+    while (first_partner_step < halving.steps() && halving.partner(poor, first_partner_step) < 0)
+      ++first_partner_step;
+    if (world.rank() == poor && world.size() > 1) {
+      EXPECT_EQ(report.group_steps, halving.gives(poor) ? 0 : first_partner_step);
+    }
+  }
+}
+
+// Nobody's rates change the picture, only who draws what.
+TEST(Compose, EstimatedTimesDecideButDoNotChangeThePicture) {
+  comm::Communicator world(MPI_COMM_WORLD);
+  const Halving halving(world.size());
+  for (const std::size_t block : {1U, 150U}) {
+    Case c{two_balls(60), block, {}};
+    for (int n = 0; n < world.size(); ++n) c.rank_of_block.push_back(n);
+    const std::vector<Mesh> mine = share_of(c, world.rank());
+    const Pixels want = drawn_alone(views(c.whole), camera_at(70), kWidth, kHeight);
+    const auto most_steps = [&](const GroupRates& rates) {
+      Composer composer;
+      ComposeReport report;
+      const Pixels got = pixels_of(composer.compose(world, views(mine), camera_at(70),
+                                                    {kWidth, kHeight, 1, {0.1, 1 << 30, rates}}, report));
+      if (world.rank() == 0) {
+        EXPECT_TRUE(got == want) << rates.triangle << " s a triangle";
+      }
+      return world.maximum(std::int64_t{report.group_steps});
+    };
+    // Pictures are dear and geometry costs nothing, and the other way round.
+    EXPECT_EQ(most_steps({0, 0, 0, 0, 1e-6, 1e-6}), halving.steps());
+    EXPECT_LE(most_steps({1e-6, 1e-6, 0, 0, 0, 0}), 1) << "what ranks without a partner skip";
+    // Geometry that is worth some pictures and not others.
+    for (const double triangle : {1e-9, 3e-9, 1e-8, 3e-8, 1e-7})
+      most_steps({0, triangle, triangle, 1e-8, 1e-8, 1e-9});
+    GroupRates measured = world.collectively([] { return measure_drawing(); });
+    for (double GroupRates::*rate : kGroupRates) {
+      EXPECT_TRUE(measured.*rate >= 0 && std::isfinite(measured.*rate));
+      measured.*rate = world.maximum(measured.*rate);
+    }
+    EXPECT_GT(std::min({measured.geometry_byte, measured.triangle, measured.merged}), 0);
+    most_steps(measured);
+  }
+}
+
+TEST(CoveredPixels, AreAboutThoseThatASurfaceShows) {
+  const std::vector<Mesh> balls = two_balls(200);
+  for (const double azimuth : {0.0, 70.0}) {
+    for (const std::size_t count : {1U, 2U}) {
+      const std::vector<LitSurface> all = views(balls);
+      const std::span<const LitSurface> some(all.data(), count);
+      const Pixels shown = drawn_alone(some, camera_at(azimuth), kWidth, kHeight);
+      const auto seen =
+          static_cast<double>(kWidth * kHeight - std::count(shown.depth.begin(), shown.depth.end(), 1.0F));
+      const auto guess = static_cast<double>(covered_pixels(some, camera_at(azimuth), kWidth, kHeight));
+      EXPECT_GT(guess, 0.7 * seen);
+      EXPECT_LT(guess, 1.5 * seen) << "the back side and the second ball lie in the same rectangle";
+    }
+  }
+  EXPECT_EQ(covered_pixels({}, camera_at(0), kWidth, kHeight), 0);
+  // Larger than the picture, and behind the eye.
+  const Mesh floor = sample::floor(1, 0);
+  const LitSurface one = floor.view();
+  EXPECT_LE(covered_pixels(std::span(&one, 1), camera_at(0), kWidth, kHeight), kWidth * kHeight);
+  const Camera away = Camera::look_at({0, 500, 0}, {0, 1000, 0}, {0, 0, 1},
+                                      std::array<Vec3, 2>{Vec3{-1, -1, -1}, Vec3{1, 1, 1}}, 1.5, true);
+  EXPECT_EQ(covered_pixels(std::span(&one, 1), away, kWidth, kHeight), 0);
 }
 
 TEST(Compose, LargePicturesAreMadeInBands) {

@@ -52,9 +52,37 @@ TEST(BrickRanges, CoverTheSamplesOfTheirCells) {
   }
 }
 
-TEST(BrickRanges, AreNotMadeOfAPart) {
+// Of a part only its samples count, and what it has nothing of can hold no surface.
+TEST(BrickRanges, OfAPartAreThoseOfItsSamples) {
+  constexpr float kInf = std::numeric_limits<float>::infinity();
+  const survey::Index volume{30, 9, 20};
+  std::vector<float> whole(static_cast<std::size_t>(volume[0] * volume[1] * volume[2]), NAN);
+  const survey::Index origin{7, 0, 3};
+  const survey::Index size{12, 9, 10};
+  std::vector<float> part;
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> value(-5, 5);
+  for (std::int64_t i = 0; i < size[0]; ++i) {
+    for (std::int64_t j = 0; j < size[1]; ++j) {
+      for (std::int64_t k = 0; k < size[2]; ++k) {
+        part.push_back(value(random));
+        const std::int64_t row = (origin[0] + i) * volume[1] + origin[1] + j;
+        whole[static_cast<std::size_t>(row * volume[2] + origin[2] + k)] = part.back();
+      }
+    }
+  }
+  const BrickRanges want = brick_ranges({whole, volume, {0, 0, 0}, volume}, 1);
+  const BrickRanges got = brick_ranges({part, size, origin, volume}, 2);
+  EXPECT_EQ(got.dims, want.dims);
+  EXPECT_EQ(got.min, want.min);
+  EXPECT_EQ(got.max, want.max);
+  EXPECT_EQ(got.min.back(), kInf);
+}
+
+TEST(BrickRanges, AreMadeOfSamplesOfAVolume) {
   const std::vector<float> values(8);
-  EXPECT_THROW(brick_ranges({values, {2, 2, 2}, {0, 0, 0}, {2, 2, 3}}, 1), Error);
+  EXPECT_THROW(brick_ranges({values, {2, 2, 2}, {0, 0, 2}, {2, 2, 3}}, 1), Error);
+  EXPECT_THROW(brick_ranges({values, {2, 2, 0}, {0, 0, 0}, {2, 2, 3}}, 1), Error);
 }
 
 }  // namespace

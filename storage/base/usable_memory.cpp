@@ -1,3 +1,5 @@
+#include "storage/base/usable_memory.h"
+
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -6,10 +8,9 @@
 #include <optional>
 #include <string>
 
-#include "engine/tasks/doctor/machine.h"
 #include "storage/base/text.h"
 
-namespace footwall::tasks {
+namespace footwall {
 namespace {
 
 // A file of one number; nothing for "max", or where there is none.
@@ -85,4 +86,4 @@ UsableMemory usable_memory(const std::filesystem::path& root) {
   return memory;
 }
 
-}  // namespace footwall::tasks
+}  // namespace footwall
