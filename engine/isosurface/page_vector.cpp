@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "storage/base/error.h"
 
 namespace footwall::isosurface {
 namespace {
 
-constexpr std::size_t kHugePage = std::size_t{2} << 20;
 constexpr std::size_t kLine = 64;
 
 std::size_t rounded_up(std::size_t bytes, std::size_t to) {
@@ -26,10 +26,12 @@ std::size_t rounded_up(std::size_t bytes, std::size_t to) {
 
 // Straight from the system and not through malloc(), which would put a header in front of huge pages and
 // gives freed memory back when it likes. Alignment by mapping a huge page more and giving back what is over.
-std::byte* map(std::size_t bytes) {
+// Null where the system refuses.
+std::byte* map(std::size_t bytes, int flags = 0) {
   const std::size_t whole = bytes + kHugePage;
-  void* const mapped = mmap(nullptr, whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (mapped == MAP_FAILED) refuse(bytes);
+  void* const mapped =
+      mmap(nullptr, whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | flags, -1, 0);
+  if (mapped == MAP_FAILED) return nullptr;
   auto* const first = static_cast<std::byte*>(mapped);
   const std::size_t ahead =
       rounded_up(reinterpret_cast<std::size_t>(first), kHugePage) - reinterpret_cast<std::size_t>(first);
@@ -37,6 +39,21 @@ std::byte* map(std::size_t bytes) {
   munmap(first + ahead + bytes, kHugePage - ahead);
   madvise(first + ahead, bytes, MADV_HUGEPAGE);  // an advice: it may be refused
   return first + ahead;
+}
+
+std::size_t room_bytes(const PageRoom& room) {
+  return room == nullptr ? 0 : room.get_deleter().bytes;
+}
+
+// Both stand on the border of a huge page, so that whole tables of pages are moved; in the place of what was
+// mapped there, and with it what comes behind, so that it stays one mapping and can be moved again.
+bool move_pages(PageRoom& from, PageRoom& into) {
+  if (mremap(from.get(), room_bytes(from), room_bytes(into), MREMAP_MAYMOVE | MREMAP_FIXED, into.get()) ==
+      MAP_FAILED) {
+    return false;
+  }
+  static_cast<void>(from.release());
+  return true;
 }
 
 }  // namespace
@@ -54,7 +71,9 @@ PageRoom page_room(std::size_t bytes) {
   const std::size_t lines = std::max(rounded_up(bytes, kLine), kLine);
   if (lines >= kHugePage) {
     const std::size_t whole = rounded_up(lines, kHugePage);
-    return {map(whole), ReleasePages{whole}};
+    std::byte* const memory = map(whole);
+    if (memory == nullptr) refuse(bytes);
+    return {memory, ReleasePages{whole}};
   }
   void* const memory = std::aligned_alloc(kLine, lines);
   if (memory == nullptr) refuse(bytes);
@@ -63,20 +82,43 @@ PageRoom page_room(std::size_t bytes) {
 
 PageRoom larger_room(PageRoom room, std::size_t used, std::size_t bytes) {
   PageRoom larger = page_room(bytes);
-  const std::size_t old_bytes = room == nullptr ? 0 : room.get_deleter().bytes;
-  if (old_bytes < kHugePage) {
+  if (room_bytes(room) < kHugePage) {
     if (used > 0) std::memcpy(larger.get(), room.get(), used);
     return larger;
   }
-  // Both stand on the border of a huge page, so that whole tables of pages are moved; in the place of what
-  // was mapped there, and with it what comes behind, so that it stays one mapping and can be moved again.
-  const std::size_t larger_bytes = larger.get_deleter().bytes;
-  if (mremap(room.get(), old_bytes, larger_bytes, MREMAP_MAYMOVE | MREMAP_FIXED, larger.get()) ==
-      MAP_FAILED) {
-    refuse(bytes);
-  }
-  static_cast<void>(room.release());
+  if (!move_pages(room, larger)) refuse(bytes);
   return larger;
+}
+
+bool reserve_room(std::size_t bytes, PageRoom& room) {
+  if (bytes > PTRDIFF_MAX / 2) return false;
+  if (bytes < kHugePage) {
+    room = page_room(bytes);
+    return true;
+  }
+  const std::size_t whole = rounded_up(bytes, kHugePage);
+  std::byte* const memory = map(whole, MAP_NORESERVE);
+  if (memory == nullptr) return false;
+  PageRoom larger{memory, ReleasePages{whole}};
+  if (room_bytes(room) >= kHugePage && !move_pages(room, larger)) return false;
+  room = std::move(larger);
+  return true;
+}
+
+void make_huge_page(std::byte* at) {
+  madvise(at, kHugePage, MADV_POPULATE_WRITE);
+}
+
+void trim_room(std::size_t used, PageRoom& room) {
+  const std::size_t kept = rounded_up(used, kHugePage);
+  const std::size_t bytes = room_bytes(room);
+  if (bytes < kHugePage || kept >= bytes) return;
+  if (kept == 0) {
+    room.reset();
+    return;
+  }
+  munmap(room.get() + kept, bytes - kept);
+  room.get_deleter().bytes = kept;
 }
 
 }  // namespace footwall::isosurface

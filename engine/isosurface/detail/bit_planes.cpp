@@ -56,18 +56,19 @@ HWY_INLINE std::uint16_t known_of(const float* HWY_RESTRICT samples) {
   });
 }
 
-// The groups of a row that are wanted, ascending; `ahead` is where the samples are that will be needed soon.
+// The groups of a row that are wanted, ascending.
 struct Groups {
   std::vector<std::uint32_t> places;
   std::size_t count = 0;
-  std::ptrdiff_t ahead = 0;
+  bool all = false;
 };
 
 HWY_INLINE void put(std::uint16_t group, std::uint32_t place, std::uint64_t* row) {
   std::memcpy(reinterpret_cast<unsigned char*>(row) + 2 * std::size_t{place}, &group, sizeof(group));
 }
 
-void scan_row(const Frame& frame, const float* samples, const Groups& groups, const BitPlanes::Row& into) {
+void scan_row(const Frame& frame, const float* samples, const Groups& groups, const BitPlanes::Row& into,
+              LinesAhead& ahead) {
   const auto level = hn::Set(Floats(), frame.isovalue);
   auto sum = hn::Zero(Floats());
   const float* const end = frame.values + frame.field->values.size();
@@ -80,11 +81,23 @@ void scan_row(const Frame& frame, const float* samples, const Groups& groups, co
     const float* const at = samples + kGroup * groups.places[whole];
     if (at < end) std::copy(at, end, last);
   }
-  for (std::size_t n = 0; n < whole; ++n) {
-    const std::uint32_t place = groups.places[n];
-    const float* const at = samples + kGroup * place;
-    hwy::Prefetch(at + groups.ahead);
-    put(signs_of(at, level, sum), place, into.inside);
+  if (groups.all) {
+    // The processor's own prefetching ends with each small page.
+    constexpr std::ptrdiff_t kAhead = 384;
+    for (std::size_t n = 0; n < whole; ++n) {
+      const float* const at = samples + kGroup * groups.places[n];
+      hwy::Prefetch(at + kAhead);
+      put(signs_of(at, level, sum), groups.places[n], into.inside);
+    }
+  } else {
+    // It does not see which groups are left out: the next plane wants the same ones, or nearly so.
+    const float** const next = ahead.room(whole);
+    for (std::size_t n = 0; n < whole; ++n) {
+      const float* const at = samples + kGroup * groups.places[n];
+      next[n] = at + frame.plane_step;
+      put(signs_of(at, level, sum), groups.places[n], into.inside);
+    }
+    ahead.add(whole);
   }
   if (whole < groups.count) put(signs_of(last, level, sum), groups.places[whole], into.inside);
   *into.has_null = hn::AllTrue(Floats(), hn::Eq(sum, sum)) ? 0 : 1;
@@ -133,14 +146,12 @@ void find_groups(const Frame& frame, const Around& cells, Groups& into) {
     }
   }
   into.count = static_cast<std::size_t>(place - into.places.data());
-  // The processor's own prefetching ends with each small page, and does not see which groups are left out:
-  // the next plane wants the same ones, or nearly so.
-  constexpr std::ptrdiff_t kAhead = 384;
-  const bool all = into.count * kGroup >= static_cast<std::size_t>(frame.row_step);
-  into.ahead = all ? kAhead : frame.plane_step;
+  into.all = into.count * kGroup >= static_cast<std::size_t>(frame.row_step);
 }
 
-void scan_plane(const Frame& frame, const CellMasks& masks, std::int64_t p, BitPlanes& into) {
+void scan_plane(const Frame& frame, const CellMasks& masks, std::int64_t p, BitPlanes& into,
+                LinesAhead& ahead) {
+  ahead.ask_all();
   Groups groups;
   Around before;
   for (std::int64_t r = 0; r < frame.sample_rows; ++r) {
@@ -148,7 +159,7 @@ void scan_plane(const Frame& frame, const CellMasks& masks, std::int64_t p, BitP
     if (here.masks[0] == nullptr) continue;
     if (here != before) find_groups(frame, here, groups);
     before = here;
-    scan_row(frame, frame.samples(p, r), groups, into.row_to_scan(p, r));
+    scan_row(frame, frame.samples(p, r), groups, into.row_to_scan(p, r), ahead);
   }
 }
 
@@ -171,9 +182,9 @@ BitPlanes::BitPlanes(const Frame& frame)
       known_(inside_.size()),
       has_null_(static_cast<std::size_t>(kPlanes * rows_)) {}
 
-void BitPlanes::scan(const Frame& frame, const CellMasks& masks, std::int64_t p) {
+void BitPlanes::scan(const Frame& frame, const CellMasks& masks, std::int64_t p, LinesAhead& ahead) {
   if ((p == frame.cell_planes || masks.plane_is_empty(p)) && (p == 0 || masks.plane_is_empty(p - 1))) return;
-  HWY_DYNAMIC_DISPATCH(scan_plane)(frame, masks, p, *this);
+  HWY_DYNAMIC_DISPATCH(scan_plane)(frame, masks, p, *this, ahead);
 }
 
 }  // namespace footwall::isosurface::detail

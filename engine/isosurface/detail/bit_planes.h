@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/isosurface/detail/cell_masks.h"
+#include "engine/isosurface/detail/lines_ahead.h"
 
 namespace footwall::isosurface::detail {
 
@@ -15,8 +16,9 @@ class BitPlanes {
 
   explicit BitPlanes(const Frame& frame);
 
-  // Takes the place of plane p - kPlanes.
-  void scan(const Frame& frame, const CellMasks& masks, std::int64_t p);
+  // Takes the place of plane p - kPlanes. Where parts of rows are left out, `ahead` gets what the next plane
+  // is likely to need.
+  void scan(const Frame& frame, const CellMasks& masks, std::int64_t p, LinesAhead& ahead);
 
   // Of the row of samples (p, r) of the frame, frame.words words. Inside: v >= isovalue.
   const std::uint64_t* inside(std::int64_t p, std::int64_t r) const {

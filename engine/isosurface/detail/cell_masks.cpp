@@ -25,7 +25,7 @@ CellMasks::CellMasks(const Frame& frame, const Bricks* bricks) : words_a_row_(fr
     set_bits(words_.data(), frame.cells.lo[2], frame.cells.hi[2]);
     any_.assign(1, 1);
     plane_any_.assign(1, 1);
-    plane_work_.assign(1, 1);
+    cells_ = static_cast<std::uint64_t>(frame.cells.size(0) * frame.cells.size(1) * frame.cells.size(2));
     return;
   }
   shift_ = kBrickShift;
@@ -41,8 +41,6 @@ CellMasks::CellMasks(const Frame& frame, const Bricks* bricks) : words_a_row_(fr
   words_.assign(count * words_a_row_ + kWordSlack, 0);
   any_.assign(count, 0);
   plane_any_.assign(static_cast<std::size_t>(touched.size(0)), 0);
-  constexpr double kIdleBrick = 1.0 / 64;
-  plane_work_.assign(plane_any_.size(), kIdleBrick * static_cast<double>(columns_ * touched.size(2)));
   std::size_t column = 0;
   for (std::int64_t a = touched.lo[0]; a < touched.hi[0]; ++a) {
     for (std::int64_t b = touched.lo[1]; b < touched.hi[1]; ++b, ++column) {
@@ -56,7 +54,7 @@ CellMasks::CellMasks(const Frame& frame, const Bricks* bricks) : words_a_row_(fr
                  std::min(k + 8, frame.cells.hi[2]));
         any_[column] = 1;
         plane_any_[static_cast<std::size_t>(a - touched.lo[0])] = 1;
-        plane_work_[static_cast<std::size_t>(a - touched.lo[0])] += 1;
+        cells_ += std::uint64_t{1} << (3 * kBrickShift);
       }
     }
   }

@@ -24,10 +24,8 @@ class CellMasks {
     return plane_any_[static_cast<std::size_t>((first_i_ + p) >> shift_)] == 0;
   }
 
-  // How much work the plane is, in some unit: the bricks to be looked at, and a little for the others.
-  double work(std::int64_t p) const {
-    return plane_work_[static_cast<std::size_t>((first_i_ + p) >> shift_)];
-  }
+  // Not fewer than there are to be looked at.
+  std::uint64_t cells() const { return cells_; }
 
  private:
   std::int64_t first_i_ = 0;  // of the frame, counted from the first brick that it touches
@@ -38,7 +36,7 @@ class CellMasks {
   std::vector<std::uint64_t> words_;
   std::vector<std::uint8_t> any_;
   std::vector<std::uint8_t> plane_any_;
-  std::vector<double> plane_work_;
+  std::uint64_t cells_ = 0;
 };
 
 }  // namespace footwall::isosurface::detail

@@ -1,4 +1,5 @@
 // Compiled once per instruction set and chosen at run time: counting bits is one instruction on most of them.
+#define HWY_WANT_AVX3_DL 1  // it lists the bits of a word at once
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/isosurface/detail/plane_masks.cpp"
 #include <hwy/foreach_target.h>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "engine/isosurface/detail/list_bits-inl.h"
 #include "engine/isosurface/detail/plane_masks.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -69,7 +71,7 @@ bool active_row(const Frame& frame, const std::uint64_t* mask, const BitPlanes& 
 }
 
 void active_plane(const Frame& frame, const CellMasks& masks, const BitPlanes& planes, std::int64_t p,
-                  ActiveCells& into) {
+                  ActiveCells& into, LinesAhead& ahead) {
   into.from = frame.cell_rows;
   into.to = 0;
   std::size_t count = 0;
@@ -78,7 +80,9 @@ void active_plane(const Frame& frame, const CellMasks& masks, const BitPlanes& p
     into.first[place] = count;
     const std::uint64_t* const mask = masks.row(p, r);
     std::uint64_t* const words = into.words.data() + place * frame.words;
-    if (mask == nullptr || !active_row(frame, mask, planes, p, r, words)) continue;
+    if (mask == nullptr) continue;
+    ahead.ask(1);
+    if (!active_row(frame, mask, planes, p, r, words)) continue;
     into.from = std::min(into.from, r);
     into.to = r + 1;
     if (into.cells.size() < count + 64 * frame.words + kListSlack) {
@@ -86,7 +90,7 @@ void active_plane(const Frame& frame, const CellMasks& masks, const BitPlanes& p
     }
     std::uint32_t* cells = into.cells.data() + count;
     for (std::size_t w = 0; w < frame.words; ++w) {
-      if (words[w] != 0) cells = list_bits(words[w], static_cast<std::uint32_t>(64 * w), cells);
+      cells = list_bits(words[w], static_cast<std::uint32_t>(64 * w), cells);
     }
     count = static_cast<std::size_t>(cells - into.cells.data());
   }
@@ -95,7 +99,7 @@ void active_plane(const Frame& frame, const CellMasks& masks, const BitPlanes& p
 
 std::uint64_t edge_plane(const Frame& frame, const BitPlanes& planes, std::int64_t p,
                          const ActiveCells& before, const ActiveCells& here,
-                         const std::uint64_t* HWY_RESTRICT none, PlaneMasks& into) {
+                         const std::uint64_t* HWY_RESTRICT none, PlaneMasks& into, LinesAhead& ahead) {
   std::uint64_t crossed = 0;
   // Cells of the row r of a plane of cells.
   const auto cells_of_row = [&](const ActiveCells& plane, std::int64_t r) {
@@ -120,6 +124,7 @@ std::uint64_t edge_plane(const Frame& frame, const BitPlanes& planes, std::int64
     counts = {};
     counts.any = here_here != none || here_before != none || before_here != none || before_before != none;
     if (!counts.any) continue;
+    ahead.ask(1);
     // An edge beyond the frame has no cells around it, so any signs will do for its upper end.
     const std::uint64_t* const signs = planes.inside(p, r);
     const std::uint64_t* const signs_j = r < frame.cell_rows ? planes.inside(p, r + 1) : signs;
@@ -188,19 +193,20 @@ HWY_EXPORT(number_plane);
 }  // namespace
 
 void find_active(const Frame& frame, const CellMasks& masks, const BitPlanes& planes, std::int64_t p,
-                 ActiveCells& into) {
+                 ActiveCells& into, LinesAhead& ahead) {
   if (p < 0 || p >= frame.cell_planes || masks.plane_is_empty(p)) {
     into.from = into.to = 0;
     return;
   }
-  HWY_DYNAMIC_DISPATCH(active_plane)(frame, masks, planes, p, into);
+  HWY_DYNAMIC_DISPATCH(active_plane)(frame, masks, planes, p, into, ahead);
 }
 
 std::uint64_t find_edges(const Frame& frame, const BitPlanes& planes, std::int64_t p,
-                         const ActiveCells& before, const ActiveCells& here, PlaneMasks& into) {
+                         const ActiveCells& before, const ActiveCells& here, PlaneMasks& into,
+                         LinesAhead& ahead) {
   into.p = p;
   const std::vector<std::uint64_t> none(frame.words, 0);
-  return HWY_DYNAMIC_DISPATCH(edge_plane)(frame, planes, p, before, here, none.data(), into);
+  return HWY_DYNAMIC_DISPATCH(edge_plane)(frame, planes, p, before, here, none.data(), into, ahead);
 }
 
 void number_vertices(const Frame& frame, std::uint64_t first_vertex, PlaneMasks& into) {

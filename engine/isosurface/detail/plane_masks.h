@@ -2,7 +2,6 @@
 // crosses, as bits.
 #pragma once
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -32,22 +31,8 @@ struct WordMasks {
   std::uint32_t unused = 0;              // so that vectors of four can be read from both
 };
 
-// Writes the places of the bits, ascending, `first_place` for bit 0, and returns where the next one goes;
-// writes up to kListSlack more than there are.
-inline constexpr std::size_t kListSlack = 2;
-template <class Number>
-inline Number* list_bits(std::uint64_t bits, Number first_place, Number* into) {
-  Number* const end = into + std::popcount(bits);
-  // Most words have few: two at a time, without asking how many there are, spares mispredicted branches.
-  while (true) {
-    for (int n = 0; n < 2; ++n) {
-      into[n] = first_place + static_cast<Number>(std::countr_zero(bits));
-      bits &= bits - 1;
-    }
-    if (bits == 0) return end;
-    into += 2;
-  }
-}
+// list_bits() (list_bits-inl.h) writes up to this many more than it says.
+inline constexpr std::size_t kListSlack = 16;
 
 struct PlaneMasks {
   explicit PlaneMasks(const Frame& frame)
@@ -67,13 +52,15 @@ struct PlaneMasks {
   std::vector<RowCounts> counts;
 };
 
+// Both ask for lines `ahead` meanwhile.
 // The planes p and p + 1 must be scanned.
 void find_active(const Frame& frame, const CellMasks& masks, const BitPlanes& planes, std::int64_t p,
-                 ActiveCells& into);
+                 ActiveCells& into, LinesAhead& ahead);
 // `before` and `here`: the active cells of planes p - 1 and p. Returns the number of crossed edges. first and
 // centres are left alone.
 std::uint64_t find_edges(const Frame& frame, const BitPlanes& planes, std::int64_t p,
-                         const ActiveCells& before, const ActiveCells& here, PlaneMasks& into);
+                         const ActiveCells& before, const ActiveCells& here, PlaneMasks& into,
+                         LinesAhead& ahead);
 // Sets first and first_centre, from counts: the plane's vertices are `first_vertex` and on.
 void number_vertices(const Frame& frame, std::uint64_t first_vertex, PlaneMasks& into);
 

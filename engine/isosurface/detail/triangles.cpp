@@ -161,12 +161,13 @@ HWY_INLINE void write_cell(const CellWords& words, std::uint32_t k,
 
 void write_plane(const Frame& frame, const CaseLookup& cases, const ActiveCells& cells,
                  const PlaneMasks& lower, const PlaneMasks& upper, std::uint64_t first,
-                 std::uint64_t* HWY_RESTRICT row_first, TriangleWriter& writer) {
+                 std::uint64_t* HWY_RESTRICT row_first, TriangleWriter& writer, LinesAhead& ahead) {
   const std::uint32_t* const start = writer.at;
   const std::int64_t from = std::min(cells.from, frame.cell_rows);
   std::fill(row_first, row_first + from, first);
   for (std::int64_t r = from; r < cells.to; ++r) {
     row_first[r] = first + static_cast<std::uint64_t>(writer.at - start) / 3;
+    ahead.ask(3);
     const auto row = static_cast<std::size_t>(r);
     std::uint32_t centre = lower.counts[row].first_centre;
     const WordMasks* const lower_words = lower.words.data() + row * frame.words;
@@ -255,10 +256,10 @@ std::uint64_t count_centres(std::span<const SlowCell> slow, PlaneMasks& into) {
 void write_triangles(const Frame& frame, const CaseLookup& cases, const ActiveCells& cells,
                      const PlaneMasks& lower, const PlaneMasks& upper, std::span<const SlowCell> slow,
                      std::uint64_t first, std::span<Triangle> into, std::uint64_t* row_first,
-                     std::vector<CentreLoop>& centres) {
+                     std::vector<CentreLoop>& centres, LinesAhead& ahead) {
   auto* const at = reinterpret_cast<std::uint32_t*>(into.data());
   TriangleWriter writer{at, at + 3 * into.size(), slow.data(), &centres};
-  HWY_DYNAMIC_DISPATCH(write_plane)(frame, cases, cells, lower, upper, first, row_first, writer);
+  HWY_DYNAMIC_DISPATCH(write_plane)(frame, cases, cells, lower, upper, first, row_first, writer, ahead);
 }
 
 }  // namespace footwall::isosurface::detail

@@ -34,10 +34,10 @@ std::uint64_t count_centres(std::span<const SlowCell> slow, PlaneMasks& into);
 
 // Writes the triangles of the counted cells between the planes of samples `lower` and `upper`, number `first`
 // and on, into `into`, which has exactly room for them, and the first of each row, from cell row 0 on, into
-// row_first. The loops of centres are added.
+// row_first. The loops of centres are added. Asks for lines `ahead` meanwhile.
 void write_triangles(const Frame& frame, const CaseLookup& cases, const ActiveCells& cells,
                      const PlaneMasks& lower, const PlaneMasks& upper, std::span<const SlowCell> slow,
                      std::uint64_t first, std::span<Triangle> into, std::uint64_t* row_first,
-                     std::vector<CentreLoop>& centres);
+                     std::vector<CentreLoop>& centres, LinesAhead& ahead);
 
 }  // namespace footwall::isosurface::detail

@@ -1,5 +1,6 @@
 // Compiled once per instruction set and chosen at run time; every operation is rounded alike on all of them
 // (vertex_arithmetic.h, no fused multiply-add), so that each gives the same bits.
+#define HWY_WANT_AVX3_DL 1  // it lists the bits of a word at once
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/isosurface/detail/vertices.cpp"
 #include <hwy/foreach_target.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/isosurface/detail/list_bits-inl.h"
 #include "engine/isosurface/detail/vertex_arithmetic.h"
 #include "engine/isosurface/detail/vertices.h"
 
@@ -42,7 +44,7 @@ void list_plane(const Frame& frame, const PlaneMasks& here, const SlowCell* slow
       place += counts.edges[axis];
       auto first = row;
       for (std::size_t w = 0; w < frame.words; ++w, first += 64) {
-        if (words[w].edges[axis] != 0) offset = list_bits(words[w].edges[axis], first, offset);
+        offset = list_bits(words[w].edges[axis], first, offset);
       }
     }
     for (; slow != slow_end && slow->r == static_cast<std::uint32_t>(r); ++slow) {
@@ -211,14 +213,15 @@ class Plane {
   Int origin_k_;
 };
 
-void write_plane(const Frame& frame, std::int64_t p, const VertexList& list, Point* positions,
-                 Point* normals) {
+void write_plane(const Frame& frame, std::int64_t p, const VertexList& list, Point* positions, Point* normals,
+                 LinesAhead& ahead) {
   static_assert(sizeof(Point) == 3 * sizeof(float));
   const Plane plane(frame, p);
   auto* position = reinterpret_cast<float*>(positions);
   auto* normal = reinterpret_cast<float*>(normals);
   std::size_t at = 0;
   for (; at + kStep <= list.count; at += kStep) {
+    ahead.ask(kStep / 2);
     plane.make(list.offset.data() + at, list.place.data() + at, position, normal);
     position += 3 * kStep;
     if (normal != nullptr) normal += 3 * kStep;
@@ -268,8 +271,8 @@ void list_vertices(const Frame& frame, const PlaneMasks& here, std::span<const S
 }
 
 void write_vertices(const Frame& frame, std::int64_t p, const VertexList& list, Point* positions,
-                    Point* normals, VertexKey* keys) {
-  HWY_DYNAMIC_DISPATCH(write_plane)(frame, p, list, positions, normals);
+                    Point* normals, VertexKey* keys, LinesAhead& ahead) {
+  HWY_DYNAMIC_DISPATCH(write_plane)(frame, p, list, positions, normals, ahead);
   if (keys == nullptr) return;
   const Field& field = *frame.field;
   for (std::size_t n = 0; n < list.count; ++n) {

@@ -20,9 +20,9 @@ struct VertexList {
 void list_vertices(const Frame& frame, const PlaneMasks& here, std::span<const SlowCell> slow,
                    VertexList& into);
 
-// normals and keys may be null; else room for list.count each.
+// normals and keys may be null; else room for list.count each. Asks for lines `ahead` meanwhile.
 void write_vertices(const Frame& frame, std::int64_t p, const VertexList& list, Point* positions,
-                    Point* normals, VertexKey* keys);
+                    Point* normals, VertexKey* keys, LinesAhead& ahead);
 
 // Each centre from the vertices around it, which must be made.
 void write_centres(std::span<const CentreLoop> centres, Point* positions, Point* normals);

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <random>
@@ -82,6 +85,57 @@ TEST_F(Bricks, AreTheSameOnAllInstructionSetsAndThreadCounts) {
     }
   }
 }
+
+TEST_F(Bricks, AreTheSameHoweverThreadsShareThePlanes) {
+  // Runs of three to twelve planes, with the smaller ones at the end, and sizes that leave one plane over.
+  for (const std::int64_t planes : {2, 3, 12, 13, 25, 26, 49, 60}) {
+    const SampleVolume volume = random_volume({planes, 6, 9}, 11, 0.01);
+    for (const int threads : {2, 4, 7}) {
+      ExtractOptions options;
+      options.threads = threads;
+      expect_defined(volume.field(), 0.1F, options, fmt::format("{} planes, {} threads", planes, threads));
+    }
+  }
+}
+
+#ifndef __SANITIZE_ADDRESS__
+class AddressLimit {
+ public:
+  explicit AddressLimit(std::size_t to_spare) {
+    long pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    getrlimit(RLIMIT_AS, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = static_cast<rlim_t>(pages * sysconf(_SC_PAGESIZE)) + to_spare;
+    setrlimit(RLIMIT_AS, &limit);
+  }
+  ~AddressLimit() { setrlimit(RLIMIT_AS, &before_); }
+  AddressLimit(const AddressLimit&) = delete;
+  AddressLimit& operator=(const AddressLimit&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+TEST_F(Bricks, NeedNoAddressesToSpare) {
+  // As where a batch system limits them: the threads' room cannot be reserved, and one goes on alone.
+  const SampleVolume volume = sampled(
+      {100, 100, 100}, [](auto i, auto j, auto k) { return static_cast<float>(i * i + j * j + k * k); });
+  ExtractOptions options;
+  options.threads = 3;
+  Surface unlimited;
+  extract(volume.field(), 6400, options, unlimited);
+  Surface limited;
+  {
+    constexpr std::size_t kToSpare = std::size_t{160} << 20;
+    const AddressLimit limit(kToSpare);
+    PageVector<Point> room;
+    ASSERT_FALSE(room.reserve(volume.field().values.size() * 16));
+    extract(volume.field(), 6400, options, limited);
+  }
+  EXPECT_EQ(verify::difference(limited, unlimited), "");
+}
+#endif
 
 TEST_F(Bricks, TakeValuesEqualToTheIsovalueForInside) {
   std::mt19937 random(5);

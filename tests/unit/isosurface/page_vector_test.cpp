@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -9,8 +10,6 @@
 
 namespace footwall::isosurface {
 namespace {
-
-constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
 TEST(PageVector, KeepsItsRoomWhenItShrinks) {
   PageVector<std::uint64_t> numbers;
@@ -66,6 +65,53 @@ TEST(PageVector, StandsOnHugePageBordersWhenLarge) {
     room.get()[0] = std::byte{1};
     room.get()[bytes - 1] = std::byte{1};
   }
+}
+
+TEST(PageVector, GrowsInItsPlaceWhereRoomIsReserved) {
+  PageVector<std::uint64_t> numbers;
+  for (const std::size_t most : {std::size_t{100}, kHugePage, std::size_t{1} << 32}) {
+    ASSERT_TRUE(numbers.reserve(most));
+    EXPECT_TRUE(numbers.empty());
+    numbers.grow(1);
+    numbers[0] = 7;
+    const auto* const room = numbers.data();
+    const std::size_t size = std::min(most, kHugePage);
+    numbers.grow(size);
+    for (std::size_t page = 0; (page + 1) * kHugePage <= numbers.room_bytes() && page < 9; ++page) {
+      numbers.make_page(page);
+    }
+    numbers[size - 1] = 8;
+    EXPECT_EQ(numbers.data(), room);
+    numbers.trim();
+    EXPECT_EQ(numbers.data(), room);
+    EXPECT_EQ(numbers[0], 7U);
+    EXPECT_EQ(numbers[size - 1], 8U);
+    EXPECT_LE(numbers.room_bytes(), std::max(size * sizeof(std::uint64_t), 8 * kHugePage));
+  }
+  // What a larger content left behind is kept.
+  const std::size_t bytes = numbers.room_bytes();
+  ASSERT_TRUE(numbers.reserve(std::size_t{1} << 32));
+  numbers.grow(5);
+  numbers.trim();
+  EXPECT_EQ(numbers.room_bytes(), bytes);
+}
+
+TEST(PageVector, GivesAllAddressesBackWhenNothingWasWritten) {
+  PageVector<std::uint64_t> numbers;
+  ASSERT_TRUE(numbers.reserve(std::size_t{1} << 32));
+  numbers.trim();
+  EXPECT_EQ(numbers.room_bytes(), 0U);
+}
+
+TEST(PageVector, KeepsItsRoomWhereMoreCannotBeReserved) {
+  PageVector<std::uint64_t> numbers;
+  numbers.resize_uninitialised(kHugePage);
+  const std::size_t bytes = numbers.room_bytes();
+  EXPECT_FALSE(numbers.reserve(std::size_t{1} << 55));
+  EXPECT_FALSE(numbers.reserve(std::size_t{1} << 60));
+  EXPECT_EQ(numbers.room_bytes(), bytes);
+  numbers.trim();
+  EXPECT_EQ(numbers.room_bytes(), bytes);
 }
 
 TEST(PageVector, SaysWhenThereIsNoRoom) {
