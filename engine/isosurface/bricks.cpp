@@ -160,7 +160,7 @@ void extract_bricks(const Field& field, float isovalue, const ExtractOptions& op
   const auto most_vertices = std::min(kMostVertices, kMostVerticesOfCell * cells);
   // Without room that stays in its place one thread goes on alone.
   const bool stays = order.reserve(most_vertices, kMostTrianglesOfCell * cells);
-  const bool many = options.threads > 1 && stays;
+  const bool many = options.threads > 1 && stays && cells > 0;
   const int threads = many ? options.threads : 1;
   const std::int64_t most_planes = many ? kPlanesOfRun : 1;
   const std::vector<Run> runs = runs_of(frame, most_planes, threads);
