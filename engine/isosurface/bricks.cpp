@@ -133,12 +133,12 @@ void make_empty(Surface& into) {
   into.row_first.assign(static_cast<std::size_t>(into.cells.size(0) * into.cells.size(1)) + 1, 0);
 }
 
-void gather_brick_runs(const std::vector<Besides>& besides, std::vector<BrickRun>& into) {
+void gather_part_runs(const std::vector<Besides>& besides, std::vector<PartRun>& into) {
   for (const Besides& made : besides) {
-    into.insert(into.end(), made.brick_runs.begin(), made.brick_runs.end());
+    into.insert(into.end(), made.part_runs.begin(), made.part_runs.end());
   }
   std::sort(into.begin(), into.end(),
-            [](const BrickRun& a, const BrickRun& b) { return a.first_triangle < b.first_triangle; });
+            [](const PartRun& a, const PartRun& b) { return a.first_triangle < b.first_triangle; });
 }
 
 }  // namespace
@@ -146,7 +146,7 @@ void gather_brick_runs(const std::vector<Besides>& besides, std::vector<BrickRun
 void extract_bricks(const Field& field, float isovalue, const ExtractOptions& options, Surface& into) {
   voxelize::apply_forced_simd();
   into.cells = options.cells.value_or(cells_of(field));
-  if (options.brick_runs != nullptr) options.brick_runs->clear();
+  if (options.part_runs != nullptr) options.part_runs->clear();
   if (into.cells.empty()) {
     make_empty(into);
     return;
@@ -176,7 +176,7 @@ void extract_bricks(const Field& field, float isovalue, const ExtractOptions& op
         if (!place) return;
         if (many) order.prepare(*place, count);
         march.write(*place);
-        if (options.brick_runs != nullptr) march.list_bricks(*place);
+        if (options.part_runs != nullptr) march.list_parts(*place);
       }
     } catch (...) {
       order.give_up();
@@ -187,7 +187,7 @@ void extract_bricks(const Field& field, float isovalue, const ExtractOptions& op
   for (const Besides& made : besides) {
     write_centres(made.centres, into.positions.data(), options.normals ? into.normals.data() : nullptr);
   }
-  if (options.brick_runs != nullptr) gather_brick_runs(besides, *options.brick_runs);
+  if (options.part_runs != nullptr) gather_part_runs(besides, *options.part_runs);
 }
 
 }  // namespace footwall::isosurface

@@ -29,12 +29,13 @@ struct Bricks {
 using BrickParts = std::uint64_t;
 inline constexpr BrickParts kWholeBrick = ~BrickParts{0};
 
-// The triangles of one brick in one row (i, j) of cells: those from `first_triangle` up to the next run's.
-struct BrickRun {
+// The triangles of one part of a brick in one row (i, j) of cells: those from `first_triangle` up to the next
+// run's.
+struct PartRun {
   std::uint64_t first_triangle = 0;
   std::int64_t i = 0;  // of the volume's cells
   std::int64_t j = 0;
-  std::int64_t brick = 0;  // along samples
+  std::int64_t part = 0;  // along samples, from the volume's first on: cells 2 part and 2 part + 1
 };
 
 struct ExtractOptions {
@@ -46,9 +47,9 @@ struct ExtractOptions {
   // With bricks: makes the triangles of these parts alone, with the vertices, normals and order that they
   // have in the whole surface. None: all parts.
   std::span<const BrickParts> parts;
-  // With bricks: is told where each brick's triangles stand, in their order; runs without triangles are left
+  // With bricks: is told where each part's triangles stand, in their order; runs without triangles are left
   // out.
-  std::vector<BrickRun>* brick_runs = nullptr;
+  std::vector<PartRun>* part_runs = nullptr;
 };
 
 // Throws Error kInvalid for a field whose sizes do not fit or an isovalue that is not finite, kMemory,

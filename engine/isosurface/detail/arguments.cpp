@@ -68,7 +68,7 @@ void check_arguments(const Field& field, float isovalue, const ExtractOptions& o
   }
   if (options.bricks != nullptr) check_bricks(field, *options.bricks);
   if (options.bricks == nullptr
-          ? !options.parts.empty() || options.brick_runs != nullptr
+          ? !options.parts.empty() || options.part_runs != nullptr
           : !options.parts.empty() && options.parts.size() != options.bricks->min.size()) {
     refuse(fmt::format("{} words for the parts of other bricks", options.parts.size()));
   }

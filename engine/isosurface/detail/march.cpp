@@ -73,11 +73,11 @@ void March::write(const Place& place) {
   numbered_ = run_.last;
 }
 
-void March::list_bricks(const Place& place) {
+void March::list_parts(const Place& place) {
   std::uint64_t triangle = place.triangle;
   for (std::int64_t p = run_.first; p < std::min(run_.last, frame_.cell_planes); ++p) {
     const Plane& here = plane(p);
-    list_brick_runs(frame_, cases_, here.cells, p, here.slow, triangle, besides_.brick_runs);
+    list_part_runs(frame_, cases_, here.cells, p, here.slow, triangle, besides_.part_runs);
     triangle += here.triangles;
   }
 }

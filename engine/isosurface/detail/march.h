@@ -32,7 +32,7 @@ struct Place {
 // What a thread's runs give besides what has a place of its own.
 struct Besides {
   std::vector<CentreLoop> centres;  // not made: the last ones hang on vertices of the next run
-  std::vector<BrickRun> brick_runs;
+  std::vector<PartRun> part_runs;
 };
 
 class March {
@@ -46,7 +46,7 @@ class March {
   // What was found last.
   void write(const Place& place);
   // Where the bricks' triangles of the same are.
-  void list_bricks(const Place& place);
+  void list_parts(const Place& place);
 
  private:
   struct Plane {

@@ -30,10 +30,10 @@ struct CentreLoop {
 std::uint64_t count_triangles(const Frame& frame, const BitPlanes& planes, const CaseLookup& cases,
                               std::int64_t p, ActiveCells& here, std::vector<SlowCell>& slow);
 
-// Where the triangles of each brick of 8 cells along samples stand, for cells that count_triangles() has
+// Where the triangles of each two cells along samples stand, for cells that count_triangles() has
 // seen; `first`: the number of the plane's first triangle.
-void list_brick_runs(const Frame& frame, const CaseLookup& cases, const ActiveCells& cells, std::int64_t p,
-                     std::span<const SlowCell> slow, std::uint64_t first, std::vector<BrickRun>& into);
+void list_part_runs(const Frame& frame, const CaseLookup& cases, const ActiveCells& cells, std::int64_t p,
+                    std::span<const SlowCell> slow, std::uint64_t first, std::vector<PartRun>& into);
 
 // Sets counts[].centres of the plane that the cells belong to; returns their sum.
 std::uint64_t count_centres(std::span<const SlowCell> slow, PlaneMasks& into);

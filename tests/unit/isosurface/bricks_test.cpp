@@ -316,10 +316,10 @@ TEST(BrickParts, GiveTheWholeSurfacesTriangles) {
     extract(volume.field(), 0.1F, {}, whole);
 
     std::vector<Point> corners;  // three a triangle, each a place and a normal
-    std::vector<BrickRun> runs;
+    std::vector<PartRun> runs;
     for (std::int64_t i = 0; i + 1 < size[0]; ++i) {
       for (std::int64_t j = 0; j + 1 < size[1]; ++j) {
-        std::int64_t brick = -1;
+        std::int64_t part = -1;
         for (std::int64_t k = 0; k + 1 < size[2]; ++k) {
           const auto word =
               static_cast<std::size_t>((i / 8 * bricks.dims[1] + j / 8) * bricks.dims[2] + k / 8);
@@ -329,8 +329,8 @@ TEST(BrickParts, GiveTheWholeSurfacesTriangles) {
           Surface cell;
           extract(volume.field(), 0.1F, one, cell);
           if (cell.triangles.empty()) continue;
-          if (k / 8 != brick) runs.push_back({corners.size() / 6, i, j, k / 8});
-          brick = k / 8;
+          if (k / 2 != part) runs.push_back({corners.size() / 6, i, j, k / 2});
+          part = k / 2;
           for (const Triangle& triangle : cell.triangles.all()) {
             for (const std::uint32_t v : triangle) {
               corners.push_back(cell.positions[v]);
@@ -345,8 +345,8 @@ TEST(BrickParts, GiveTheWholeSurfacesTriangles) {
       options.threads = threads;
       options.bricks = &bricks;
       options.parts = parts;
-      std::vector<BrickRun> listed;
-      options.brick_runs = &listed;
+      std::vector<PartRun> listed;
+      options.part_runs = &listed;
       Surface made;
       extract(volume.field(), 0.1F, options, made);
       ASSERT_EQ(made.triangles.size(), corners.size() / 6);
@@ -363,7 +363,7 @@ TEST(BrickParts, GiveTheWholeSurfacesTriangles) {
         ASSERT_EQ(listed[n].first_triangle, runs[n].first_triangle);
         ASSERT_EQ(listed[n].i, runs[n].i);
         ASSERT_EQ(listed[n].j, runs[n].j);
-        ASSERT_EQ(listed[n].brick, runs[n].brick);
+        ASSERT_EQ(listed[n].part, runs[n].part);
       }
     }
     ExtractOptions wrong;

@@ -1,0 +1,12 @@
+// Which parts of a brick, 2 x 2 x 2 cells each, may hold triangles: those whose samples lie on both sides of
+// the isovalue.
+#pragma once
+#include "engine/isosurface/extract.h"
+
+namespace footwall::isosurface {
+
+// brick: its place among the bricks of the volume; the field holds the samples of its cells. A part with
+// nulls may be told active that has no triangles, never the other way round.
+BrickParts active_parts(const Field& field, const survey::Index& brick, float isovalue);
+
+}  // namespace footwall::isosurface
