@@ -18,7 +18,7 @@ struct RenderOptions {
       sections;        // "inline=N", "crossline=N", "z=VALUE"; N may be "first", "middle" or "last"
   std::string volume;  // for sections; empty: the first
   std::vector<std::string> isosurfaces;  // "VOLUME=VALUE[,COLOUR]"
-  IsosurfaceOptions drawing;             // of isosurfaces
+  DrawingOptions drawing;             // of isosurfaces
   std::string statistic = "variance";
   std::string colours;  // empty: the statistic's own colour map
   std::optional<std::array<double, 2>> range;

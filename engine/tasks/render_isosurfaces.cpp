@@ -98,7 +98,7 @@ std::vector<WantedIsosurface> isosurfaces_from(const project::Project& project,
 DrawnIsosurfaces draw_isosurfaces(const project::Project& project,
                                   const std::vector<WantedIsosurface>& wanted,
                                   const render::SceneFrame& frame, const render::Camera& camera, int width,
-                                  int height, const IsosurfaceOptions& options, const JobContext& context) {
+                                  int height, const DrawingOptions& options, const JobContext& context) {
   const session::PrivateFolder folder(home_of_job(project));
   session::RenderJob job;
   job.width = width;

@@ -27,7 +27,7 @@ struct WantedIsosurface {
 std::vector<WantedIsosurface> isosurfaces_from(const project::Project& project,
                                                const std::vector<std::string>& words);
 
-struct IsosurfaceOptions {
+struct DrawingOptions {
   session::LaunchOptions launch;
   std::optional<double> group_threshold = 0.1;  // none: by estimated times
 };
@@ -42,6 +42,6 @@ struct DrawnIsosurfaces {
 DrawnIsosurfaces draw_isosurfaces(const project::Project& project,
                                   const std::vector<WantedIsosurface>& wanted,
                                   const render::SceneFrame& frame, const render::Camera& camera, int width,
-                                  int height, const IsosurfaceOptions& options, const JobContext& job);
+                                  int height, const DrawingOptions& options, const JobContext& job);
 
 }  // namespace footwall::tasks
