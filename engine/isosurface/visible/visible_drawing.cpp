@@ -106,7 +106,8 @@ void VisibleDrawing::State::prepare(std::span<const VolumePart> parts, const Vis
     remembered = std::move(now);
   }
   if (window && window->width() == request.width && window->height() == request.height) {
-    window->clear();
+    const render::ScreenBox& drawn = merged.window();  // by the last picture
+    window->clear(drawn.x0, drawn.x1 + 1, drawn.y0, drawn.y1 + 1);
   } else {
     window.emplace(request.width, request.height);
   }

@@ -61,6 +61,8 @@ void PendingBricks::collect(std::span<const VolumePart> parts, const VisibleRequ
     }
   }
   for_each_brick(bricks_, request.threads, [&](PendingBrick& brick) {
+    const PendingBrick* const next = &brick + 1;
+    if (next < bricks_.data() + bricks_.size()) fetch_brick(parts[next->part].field, next->at);
     brick.active = active_parts(parts[brick.part].field, brick.at, request.isovalue);
   });
   std::erase_if(bricks_, [](const PendingBrick& brick) { return brick.active == 0; });
