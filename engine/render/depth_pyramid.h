@@ -84,6 +84,8 @@ class DepthPyramid {
 
   // Whether all of the box lies behind what is seen at its pixels.
   bool hides(const ScreenBox& box) const;
+  // How many pixels of the box show nothing before it.
+  int count_before(const ScreenBox& box) const;
   // Sets a bit for each open pixel of the box: of the word row * words_a_row() + x / 64 from the window's
   // corner on.
   void mark_open(const ScreenBox& box, std::span<std::uint64_t> bits) const;

@@ -215,6 +215,7 @@ void SurfaceFrame::shade_rows(const VisibilityBuffer& window, int begin, int end
       const PrimitiveId id = primitive_of(visibles[x]);
       to[x] = 0;
       if (id == kNoPrimitive) continue;
+      if (x + kAhead < visibles.size()) table_.fetch(primitive_of(visibles[x + kAhead]));
       const PrimitiveTable::Entry& entry = table_.entry_of(id);
       seen.push_back(
           {entry.surface, static_cast<std::int32_t>(x), entry.first_triangle + (id - entry.first_id)});

@@ -1,6 +1,7 @@
 // One picture of lit surfaces, step by step: project the vertices, rasterize the triangles into a visibility
 // buffer, shade what is seen. Each step may run on several threads; none of them changes a bit.
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -25,6 +26,12 @@ class PrimitiveTable {
     std::size_t n = buckets_[(id - lowest_) >> shift_];
     while (n + 1 < entries_.size() && entries_[n + 1].first_id <= id) ++n;
     return entries_[n];
+  }
+
+  // Has the entry fetched that will be asked for soon; any number.
+  void fetch(PrimitiveId id) const {
+    const std::size_t bucket = std::min<std::size_t>((id - lowest_) >> shift_, buckets_.size() - 1);
+    __builtin_prefetch(&entries_[buckets_[bucket]]);
   }
 
  private:

@@ -1,12 +1,15 @@
 // Only what can be seen of a stored isosurface, extracted and drawn on all ranks, in whichever mode.
 #pragma once
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/comm/communicator.h"
 #include "engine/isosurface/parallel/stored_samples.h"
 #include "engine/isosurface/visible/paper/visible_paper.h"
+#include "engine/isosurface/visible/parallel/brick_pillars.h"
+#include "engine/isosurface/visible/parallel/visible_picture_parallel.h"
 #include "engine/isosurface/visible/passes.h"
 #include "engine/render/composite/compose.h"
 #include "storage/base/job_context.h"
@@ -42,12 +45,16 @@ class VisibleSurface {
   std::span<const render::LitSurface> surfaces() const { return surfaces_; }
 
  private:
+  void draw_depth(comm::Communicator& world, const isosurface::VisibleRequest& request,
+                  const JobContext& context, const AfterPass& after_pass, DrawnVisible& drawn);
   void draw_paper(comm::Communicator& world, const isosurface::VisibleRequest& request,
                   const render::GroupOptions& groups, const JobContext& context, const AfterPass& after_pass,
                   DrawnVisible& drawn);
 
   isosurface::StoredSamples& samples_;
-  isosurface::VisiblePieces pieces_;
+  isosurface::VisiblePieces pieces_;                 // mode `paper`
+  std::optional<isosurface::BrickPillars> pillars_;  // mode `depth`
+  isosurface::VisiblePicture picture_;
   std::vector<render::LitSurface> surfaces_;
 };
 

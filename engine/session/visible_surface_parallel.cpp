@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/isosurface/parallel/choose_pillars.h"
 #include "engine/session/host_ranks.h"
 #include "engine/session/visible_surface.h"
 #include "storage/base/error.h"
@@ -28,10 +29,45 @@ DrawnVisible VisibleSurface::draw(comm::Communicator& world, VisibleRequest requ
       draw_paper(world, request, groups, context, after_pass, drawn);
       break;
     case isosurface::VisibleMode::kDepth:
-      world.collectively(
-          [] { throw Error(ErrorCode::kUnsupported, "mode depth is not built yet", "use --mode paper"); });
+      draw_depth(world, request, context, after_pass, drawn);
+      break;
   }
   return drawn;
+}
+
+void VisibleSurface::draw_depth(comm::Communicator& world, const VisibleRequest& request,
+                                const JobContext& context, const AfterPass& after_pass, DrawnVisible& drawn) {
+  // 1. Each rank reads its own part.
+  const double start = omp_get_wtime();
+  world.collectively([&] {
+    context.report(0, "read");
+    const auto cut = isosurface::choose_interleaving(request.volume_size, world.size(), request.bricks,
+                                                     request.isovalue, true);
+    pillars_.emplace(samples_.field_of(), request.volume_size, world.size(), world.rank(), cut);
+    context.report(0.5, "passes");
+  });
+  drawn.read_seconds = omp_get_wtime() - start;
+
+  // 2. Waves, drawn and merged.
+  const double began = omp_get_wtime();
+  double aside = 0;
+  isosurface::VisiblePicture::AfterWave tell;
+  if (after_pass) {
+    tell = [&](int, const render::SurfaceLayer& layer) {
+      const double now = omp_get_wtime();
+      after_pass(layer);
+      aside += omp_get_wtime() - now;
+    };
+  }
+  picture_.forget();
+  drawn.layer = picture_.draw(world, pillars_->parts(), request, drawn.report, drawn.composed, tell);
+  const render::ComposeReport::Seconds& composed = drawn.composed.seconds;
+  drawn.extract_seconds = omp_get_wtime() - began - aside - composed.shade - composed.merge - composed.gather;
+  world.collectively([&] {
+    context.check();
+    const auto surfaces = picture_.drawing().frame().surfaces();
+    surfaces_.assign(surfaces.begin(), surfaces.end());
+  });
 }
 
 void VisibleSurface::draw_paper(comm::Communicator& world, const VisibleRequest& request,

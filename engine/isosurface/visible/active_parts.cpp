@@ -104,9 +104,7 @@ namespace {
 
 HWY_EXPORT(find_parts);
 
-}  // namespace
-
-BrickParts active_parts(const Field& field, const survey::Index& brick, float isovalue) {
+BrickSamples samples_of(const Field& field, const survey::Index& brick) {
   BrickSamples samples;
   survey::Index at{};
   for (int axis = 0; axis < 3; ++axis) {
@@ -114,11 +112,26 @@ BrickParts active_parts(const Field& field, const survey::Index& brick, float is
     at[axis] = first - field.origin[axis];
     samples.size[axis] = std::min<std::int64_t>(9, field.volume_size[axis] - first);
   }
-  if (std::min({samples.size[0], samples.size[1], samples.size[2]}) < 2) return 0;  // no cells
   samples.row_step = field.size[2];
   samples.plane_step = field.size[1] * field.size[2];
   samples.first = field.values.data() + at[0] * samples.plane_step + at[1] * samples.row_step + at[2];
+  return samples;
+}
+
+}  // namespace
+
+BrickParts active_parts(const Field& field, const survey::Index& brick, float isovalue) {
+  const BrickSamples samples = samples_of(field, brick);
+  if (std::min({samples.size[0], samples.size[1], samples.size[2]}) < 2) return 0;  // no cells
   return HWY_DYNAMIC_DISPATCH(find_parts)(samples, isovalue);
+}
+
+void fetch_brick(const Field& field, const survey::Index& brick) {
+  const BrickSamples samples = samples_of(field, brick);
+  for (std::int64_t i = 0; i < samples.size[0]; ++i) {
+    for (std::int64_t j = 0; j < samples.size[1]; ++j)
+      __builtin_prefetch(samples.first + i * samples.plane_step + j * samples.row_step);
+  }
 }
 
 }  // namespace footwall::isosurface

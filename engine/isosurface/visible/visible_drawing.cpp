@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/isosurface/visible/detail/moved_bricks.h"
 #include "engine/isosurface/visible/detail/pending_bricks.h"
 #include "engine/isosurface/visible/detail/wave_surfaces.h"
 #include "storage/base/error.h"
@@ -14,12 +15,15 @@ namespace footwall::isosurface {
 namespace {
 
 using detail::EarlierWaves;
+using detail::MovedBrick;
 using detail::PendingBrick;
 using detail::PendingBricks;
 using detail::WaveSurfaces;
 
 // Waves that look ahead; what they leave is taken by one more.
 constexpr int kLookingAhead = 2;
+// By how much more than the mean a rank may have to do, before bricks move.
+constexpr double kUneven = 0.02;
 
 // Adds the time of its own life.
 class Stopwatch {
@@ -39,6 +43,7 @@ struct Remembered {
   float isovalue = 0;
   survey::Index volume_size{0, 0, 0};
   std::vector<const float*> fields;
+  std::vector<survey::Box> bricks;
   friend bool operator==(const Remembered&, const Remembered&) = default;
 };
 
@@ -81,21 +86,27 @@ struct VisibleDrawing::State {
   render::DepthPyramid merged;
   render::DepthPyramid ahead;
   std::vector<std::uint64_t> open_bits;
+  std::vector<MovedBrick> taken;  // from other ranks, in the wave under way
 
   void prepare(std::span<const VolumePart> parts, const VisibleRequest& request);
   render::DepthScale place(Ranks& ranks, const VisibleRequest& request);
-  void choose(Ranks& ranks, const VisibleRequest& request, const render::DepthScale& scale, int wave);
+  void choose(Ranks& ranks, const VisibleRequest& request, int wave);
+  void share(Ranks& ranks, std::span<const VolumePart> parts, const VisibleRequest& request, int wave,
+             VisiblePass::Seconds& seconds);
   std::int64_t extract_chosen(std::span<const VolumePart> parts, const VisibleRequest& request,
                               const EarlierWaves& earlier);
   void merge_depths(Ranks& ranks, const render::DepthScale& scale);
   std::int64_t count_open(Ranks& ranks);
-  void remember_seen();
+  void remember_seen(const VisibleRequest& request, std::size_t wave);
 };
 
 void VisibleDrawing::State::prepare(std::span<const VolumePart> parts, const VisibleRequest& request) {
   check(parts, request);
-  Remembered now{request.isovalue, request.volume_size, {}};
-  for (const VolumePart& part : parts) now.fields.push_back(part.field.values.data());
+  Remembered now{request.isovalue, request.volume_size, {}, {}};
+  for (const VolumePart& part : parts) {
+    now.fields.push_back(part.field.values.data());
+    now.bricks.push_back(part.bricks);
+  }
   if (remembered && *remembered == now) {
     pending.restart();
   } else {
@@ -106,7 +117,8 @@ void VisibleDrawing::State::prepare(std::span<const VolumePart> parts, const Vis
     remembered = std::move(now);
   }
   if (window && window->width() == request.width && window->height() == request.height) {
-    window->clear();
+    const render::ScreenBox& drawn = merged.window();  // by the last picture
+    window->clear(drawn.x0, drawn.x1 + 1, drawn.y0, drawn.y1 + 1);
   } else {
     window.emplace(request.width, request.height);
   }
@@ -149,8 +161,7 @@ render::DepthScale VisibleDrawing::State::place(Ranks& ranks, const VisibleReque
   return scale;
 }
 
-void VisibleDrawing::State::choose(Ranks& ranks, const VisibleRequest& request, const render::DepthScale&,
-                                   int wave) {
+void VisibleDrawing::State::choose(Ranks& ranks, const VisibleRequest& request, int wave) {
   if (wave == 1 && !seen.empty()) {
     ranks.together([&] { pending.choose(seen); });
     std::array<std::int64_t, 1> count{pending.chosen_parts()};
@@ -176,6 +187,32 @@ void VisibleDrawing::State::choose(Ranks& ranks, const VisibleRequest& request, 
   });
 }
 
+// Bricks of ranks that have more to do than the mean go to those that have less.
+void VisibleDrawing::State::share(Ranks& ranks, std::span<const VolumePart> parts,
+                                  const VisibleRequest& request, int wave, VisiblePass::Seconds& seconds) {
+  taken.clear();
+  if (ranks.size() == 1) return;
+  std::vector<detail::Move> moves;
+  {
+    const Stopwatch time(seconds.partition);
+    std::array<std::int64_t, 1> work{0};
+    ranks.together([&] { pending.weigh_chosen(wave > 1 ? &merged : nullptr, request.threads); });
+    for (const PendingBrick& brick : pending.bricks()) work[0] += brick.work;
+    moves = detail::moves_for(ranks.all(work), kUneven);
+  }
+  if (moves.empty()) return;
+  const Stopwatch time(seconds.assign);
+  std::vector<std::vector<std::byte>> messages;
+  ranks.together([&] { messages = detail::give_away(moves, ranks.rank(), ranks.size(), parts, pending); });
+  messages = ranks.exchange(std::move(messages));
+  ranks.together([&] {
+    for (const std::vector<std::byte>& message : messages) {
+      for (MovedBrick& brick : detail::taken_from(message, request.volume_size))
+        taken.push_back(std::move(brick));
+    }
+  });
+}
+
 std::int64_t VisibleDrawing::State::extract_chosen(std::span<const VolumePart> parts,
                                                    const VisibleRequest& request,
                                                    const EarlierWaves& earlier) {
@@ -191,6 +228,15 @@ std::int64_t VisibleDrawing::State::extract_chosen(std::span<const VolumePart> p
       kept += surfaces.add(parts[part].field, parts[part].bricks, chosen, request, numbers, earlier);
   }
   for (const PendingBrick& brick : pending.bricks()) chosen[brick.word] = 0;
+  for (const MovedBrick& brick : taken) {
+    const survey::Index& at = brick.at;
+    const auto word =
+        static_cast<std::size_t>((at[0] * request.bricks.dims[1] + at[1]) * request.bricks.dims[2] + at[2]);
+    chosen[word] = brick.chosen;
+    kept +=
+        surfaces.add(brick.field, {at, {at[0] + 1, at[1] + 1, at[2] + 1}}, chosen, request, numbers, earlier);
+    chosen[word] = 0;
+  }
   surfaces.frame().rasterize(*window, request.threads, first);
   return kept;
 }
@@ -211,10 +257,12 @@ std::int64_t VisibleDrawing::State::count_open(Ranks& ranks) {
   return count;
 }
 
-// What was drawn, and not found hidden since.
-void VisibleDrawing::State::remember_seen() {
+// The parts that the merged depths of all waves but the last do not hide: what was seen, and a little more.
+void VisibleDrawing::State::remember_seen(const VisibleRequest& request, std::size_t wave) {
+  pending.take_up_drawn();
+  if (wave > 1) pending.give_up_hidden(merged, request.threads);
   seen.assign(chosen.size(), 0);
-  for (PendingBrick& brick : pending.bricks()) seen[brick.word] = brick.boxed;
+  for (const PendingBrick& brick : pending.bricks()) seen[brick.word] = brick.pending;
 }
 
 VisibleDrawing::VisibleDrawing() : state_(std::make_unique<State>()) {}
@@ -243,10 +291,12 @@ VisibleReport VisibleDrawing::draw(Ranks& ranks, std::span<const VolumePart> par
     pass.seconds.visibility = std::exchange(visibility, 0);
     {
       const Stopwatch time(pass.seconds.visibility);
-      state.choose(ranks, request, scale, wave);
+      state.choose(ranks, request, wave);
     }
-    const double began = omp_get_wtime();
-    std::array<std::int64_t, 2> mine{state.pending.chosen_bricks(), 0};
+    state.share(ranks, parts, request, wave, pass.seconds);
+
+    std::array<std::int64_t, 2> mine{
+        state.pending.chosen_bricks() + static_cast<std::int64_t>(state.taken.size()), 0};
     ranks.together([&] {
       const Stopwatch time(pass.seconds.extract);
       const EarlierWaves earlier{wave > 1 ? &state.merged : nullptr, scale};
@@ -287,12 +337,14 @@ VisibleReport VisibleDrawing::draw(Ranks& ranks, std::span<const VolumePart> par
         report.finished = false;
         goes_on = false;
       }
-      (void)began;
     }
     report.passes.push_back(pass);
     if (!goes_on) break;
   }
-  ranks.together([&] { state.surfaces.frame().number(); });
+  ranks.together([&] {
+    state.surfaces.frame().number();
+    state.remember_seen(request, report.passes.size());
+  });
   report.sum_up();
   return report;
 }
@@ -303,12 +355,8 @@ const render::VisibilityBuffer& VisibleDrawing::window() const {
 render::VisibilityBuffer& VisibleDrawing::window() {
   return *state_->window;
 }
-std::span<const render::LitSurface> VisibleDrawing::surfaces() const {
-  return state_->surfaces.frame().surfaces();
-}
-void VisibleDrawing::shade(const render::VisibilityBuffer& window, std::span<render::Rgba> colours,
-                           int threads) {
-  state_->surfaces.frame().shade(window, colours, threads);
+render::SurfaceFrame& VisibleDrawing::frame() {
+  return state_->surfaces.frame();
 }
 
 }  // namespace footwall::isosurface

@@ -50,9 +50,8 @@ class VisibleDrawing {
   // after_wave runs.
   const render::VisibilityBuffer& window() const;
   render::VisibilityBuffer& window();
-  std::span<const render::LitSurface> surfaces() const;
-  // Colours of pixels that show triangles of this rank, in a window that holds no others.
-  void shade(const render::VisibilityBuffer& window, std::span<render::Rgba> colours, int threads);
+  // All surfaces that this rank drew, to be shaded where they are seen.
+  render::SurfaceFrame& frame();
 
  private:
   struct State;

@@ -2,111 +2,134 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <vector>
-
-#include "engine/isosurface/brick_ranges.h"
-#include "engine/verify/visible_by_definition.h"
 #include "rounds.h"
 #include "storage/base/error.h"
-#include "unit/isosurface/sample_volumes.h"
+#include "unit/isosurface_visible/visible_scene.h"
 
 namespace footwall::isosurface {
 namespace {
 
-constexpr int kWidth = 150;
-constexpr int kHeight = 130;
-constexpr render::Rgba kColour = render::hex(0xc08040);
-
-struct Scene {
-  explicit Scene(SampleVolume made)
-      : volume(std::move(made)), ranges(brick_ranges(volume.field(), 1)), parts{{volume.field(), {}}} {
-    parts.front().bricks.hi = ranges.dims;
-    request.volume_size = volume.size;
-    request.bricks = ranges.tables();
-    request.colour = kColour;
-    request.width = kWidth;
-    request.height = kHeight;
-  }
-  Scene(const Scene&) = delete;
-  Scene& operator=(const Scene&) = delete;
-
-  std::vector<render::Vec3> corners() const {
-    std::vector<render::Vec3> all;
-    for (unsigned n = 0; n < 8; ++n) {
-      all.push_back(request.placement({(n & 1U) != 0 ? static_cast<double>(volume.size[0]) - 1 : 0.0,
-                                       (n & 2U) != 0 ? static_cast<double>(volume.size[1]) - 1 : 0.0,
-                                       (n & 4U) != 0 ? static_cast<double>(volume.size[2]) - 1 : 0.0}));
-    }
-    return all;
-  }
-  void look(double azimuth, double elevation, double zoom, bool perspective) {
-    request.camera = render::Camera::look(azimuth, elevation, zoom, corners(),
-                                          static_cast<double>(request.width) / request.height, perspective);
-  }
-  void look_from(const render::Vec3& eye, const render::Vec3& target, bool perspective) {
-    request.camera =
-        render::Camera::look_at(request.placement(eye), request.placement(target), {0.1, 0.2, 1}, corners(),
-                                static_cast<double>(request.width) / request.height, perspective);
-  }
-  verify::SurfacePicture whole() const {
-    return verify::whole_surface_picture(volume.field(), request.isovalue, request.camera, request.placement,
-                                         kColour, request.width, request.height);
-  }
-  // Draws with `drawing`; "" where the picture is that of the whole surface.
-  std::string difference(VisibleDrawing& drawing, VisibleReport& report) {
-    OneRank alone;
-    report = drawing.draw(alone, parts, request);
-    std::vector<render::Rgba> colours(drawing.window().pixels().size());
-    drawing.shade(drawing.window(), colours, 1);
-    return verify::difference(whole(), drawing.window(), colours);
-  }
-  std::string difference() {
-    VisibleDrawing drawing;
-    VisibleReport report;
-    return difference(drawing, report);
-  }
-
-  SampleVolume volume;
-  BrickRanges ranges;
-  std::vector<VolumePart> parts;
-  VisibleRequest request;
-};
-
-SampleVolume gyroid(const survey::Index& size, double turns) {
-  return sampled(size, [&](auto i, auto j, auto k) {
-    const double s = turns * 2 * std::numbers::pi / static_cast<double>(size[0]);
-    const double x = s * static_cast<double>(i);
-    const double y = s * static_cast<double>(j);
-    const double z = s * static_cast<double>(k);
-    return std::sin(x) * std::cos(y) + std::sin(y) * std::cos(z) + std::sin(z) * std::cos(x);
-  });
-}
-
 TEST(VisibleDrawing, IsThePictureOfTheWholeSurface) {
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> share(0, 1);
-  Scene scenes[] = {Scene(ball_volume({45, 50, 41}, 17)), Scene(gyroid({49, 40, 53}, 3)),
-                    Scene(random_volume({20, 31, 26}, 3, 0.02))};
+  VisibleScene scenes[] = {VisibleScene(ball_volume({45, 50, 41}, 17)), VisibleScene(gyroid({49, 40, 53}, 3)),
+                           VisibleScene(random_volume({20, 31, 26}, 3, 0.02))};
   scenes[1].request.placement = {{0, 12.5, 0, 25, 3, 0, 0, 0, -4}, {100, -50, 7}};
   for (int round = 0; round < rounds(18); ++round) {
-    Scene& scene = scenes[round % 3];
-    const bool perspective = random() % 2 == 0;
-    if (random() % 3 == 0) {
-      const auto anywhere = [&] {
-        return render::Vec3{share(random) * static_cast<double>(scene.volume.size[0]),
-                            share(random) * static_cast<double>(scene.volume.size[1]),
-                            share(random) * static_cast<double>(scene.volume.size[2])};
-      };
-      scene.look_from(anywhere(), anywhere(), perspective);
-    } else {
-      scene.look(share(random) * 360, share(random) * 180 - 90, 0.3 + 4 * share(random) * share(random),
-                 perspective);
-    }
+    VisibleScene& scene = scenes[round % 3];
+    scene.look_at_random(random);
     ASSERT_EQ(scene.difference(), "") << "round " << round;
   }
+}
+
+// Frame after frame with the same drawing: what was seen last is drawn first.
+TEST(VisibleDrawing, StaysRightWhileTheCameraMoves) {
+  VisibleScene scene(gyroid({49, 40, 53}, 2));
+  VisibleDrawing drawing;
+  VisibleReport report;
+  scene.look(20, 10, 1.2, true);
+  ASSERT_EQ(scene.difference(drawing, report), "");
+  const std::int64_t first = report.passes.front().triangles;
+  ASSERT_EQ(scene.difference(drawing, report), "");
+  EXPECT_NE(report.passes.front().triangles, first);  // now it is known what is seen
+  EXPECT_GE(report.passes.front().percent, 99);
+  for (int frame = 0; frame < 5; ++frame) {
+    scene.look(25 + 30 * frame, 10 - 15 * frame, 1.2, frame % 2 == 0);
+    if (frame == 3) scene.request.isovalue = 0.4F;
+    ASSERT_EQ(scene.difference(drawing, report), "") << frame;
+  }
+}
+
+TEST(VisibleDrawing, MostIsThereAfterTheFirstWave) {
+  for (const double zoom : {1.0, 3.0}) {
+    VisibleScene scene(ball_volume({90, 90, 90}, 38));
+    scene.request.width = scene.request.height = 400;
+    scene.look(30, 25, zoom, true);
+    const verify::SurfacePicture whole = scene.whole();
+    VisibleDrawing drawing;
+    OneRank alone;
+    std::int64_t first = 0;
+    const VisibleReport report = drawing.draw(alone, scene.parts, scene.request, [&](int wave) {
+      if (wave == 1) first = verify::final_pixels(whole, drawing.window());
+    });
+    EXPECT_GE(first * 10, whole.pixels * 9);
+    EXPECT_LE(report.passes.size(), 5U);
+    EXPECT_LT(report.triangles, whole.triangles / 2);
+    EXPECT_LE(report.triangles * 10, whole.owning_triangles * 16);
+  }
+}
+
+TEST(VisibleDrawing, ABudgetLeavesAPictureAndTellsWhatIsOpen) {
+  VisibleScene scene(gyroid({60, 60, 60}, 3));
+  scene.look(30, 25, 1, true);
+  const verify::SurfacePicture whole = scene.whole();
+  OneRank alone;
+  VisibleDrawing drawing;
+  scene.request.passes = 1;
+  const VisibleReport one = drawing.draw(alone, scene.parts, scene.request);
+  ASSERT_EQ(one.passes.size(), 1U);
+  EXPECT_FALSE(one.finished);
+  std::int64_t missing = 0;
+  for (std::size_t n = 0; n < whole.depths.size(); ++n) {
+    const render::Visible pixel = drawing.window().pixels()[n];
+    missing += whole.depths[n] < 1 && pixel == render::kBackground ? 1 : 0;
+    EXPECT_GE(render::depth_of(pixel), whole.depths[n]);
+  }
+  EXPECT_GT(one.passes[0].uncovered_pixels, 0);
+  EXPECT_GE(one.passes[0].uncovered_pixels, missing);
+  scene.request.passes = 0;
+  scene.request.budget_seconds = 0;
+  drawing.forget();
+  const VisibleReport hasty = drawing.draw(alone, scene.parts, scene.request);
+  EXPECT_EQ(hasty.passes.size(), 1U);
+  EXPECT_FALSE(hasty.finished);
+  scene.request.budget_seconds = 1e6;
+  EXPECT_TRUE(drawing.draw(alone, scene.parts, scene.request).finished);
+}
+
+TEST(VisibleDrawing, StandsUglyVolumesAndIsovalues) {
+  VisibleDrawing drawing;
+  VisibleReport report;
+  for (const survey::Index& size : {survey::Index{1, 1, 1}, {1, 9, 1}, {2, 2, 2}, {1, 12, 20}, {17, 2, 9}}) {
+    VisibleScene scene(random_volume(size, 4));
+    scene.look(30, 25, 1, true);
+    drawing.forget();
+    ASSERT_EQ(scene.difference(drawing, report), "") << size[0] << " " << size[1] << " " << size[2];
+  }
+  VisibleScene scene(random_volume({20, 20, 20}, 4, 0.1));
+  scene.volume.values[77] = INFINITY;
+  scene.volume.values[5000] = -INFINITY;
+  scene.ranges = brick_ranges(scene.volume.field(), 1);
+  scene.request.bricks = scene.ranges.tables();
+  scene.look(200, -40, 1.5, false);
+  for (const float isovalue : {0.0F, 5.0F, -5.0F, scene.volume.values[100]}) {
+    scene.request.isovalue = std::isfinite(isovalue) ? isovalue : 0.25F;
+    ASSERT_EQ(scene.difference(drawing, report), "") << isovalue;
+  }
+  VisibleScene plain(random_volume({20, 20, 20}, 4));
+  plain.request.isovalue = 5;
+  plain.look(200, -40, 1.5, false);
+  ASSERT_EQ(plain.difference(drawing, report), "");
+  EXPECT_EQ(report.passes.size(), 1U);
+  EXPECT_EQ(report.triangles, 0);
+}
+
+TEST(VisibleDrawing, RefusesWhatDoesNotFit) {
+  VisibleScene scene(ball_volume({20, 20, 20}, 7));
+  scene.look(30, 25, 1, true);
+  VisibleDrawing drawing;
+  OneRank alone;
+  VisibleRequest request = scene.request;
+  request.isovalue = NAN;
+  EXPECT_THROW(drawing.draw(alone, scene.parts, request), Error);
+  request = scene.request;
+  request.volume_size = {90, 20, 20};
+  EXPECT_THROW(drawing.draw(alone, scene.parts, request), Error);
+  request = scene.request;
+  request.width = 0;
+  EXPECT_THROW(drawing.draw(alone, scene.parts, request), Error);
+  std::vector<VolumePart> parts = scene.parts;
+  parts[0].field.size[0] -= 1;
+  EXPECT_THROW(drawing.draw(alone, parts, scene.request), Error);
 }
 
 }  // namespace

@@ -61,6 +61,8 @@ void PendingBricks::collect(std::span<const VolumePart> parts, const VisibleRequ
     }
   }
   for_each_brick(bricks_, request.threads, [&](PendingBrick& brick) {
+    const PendingBrick* const next = &brick + 1;
+    if (next < bricks_.data() + bricks_.size()) fetch_brick(parts[next->part].field, next->at);
     brick.active = active_parts(parts[brick.part].field, brick.at, request.isovalue);
   });
   std::erase_if(bricks_, [](const PendingBrick& brick) { return brick.active == 0; });
@@ -70,7 +72,7 @@ void PendingBricks::collect(std::span<const VolumePart> parts, const VisibleRequ
 void PendingBricks::restart() {
   std::size_t boxes = 0;
   for (PendingBrick& brick : bricks_) {
-    brick.boxed = brick.pending = brick.chosen = 0;
+    brick.boxed = brick.pending = brick.chosen = brick.drawn = 0;
     brick.first_box = boxes;
     boxes += static_cast<std::size_t>(std::popcount(brick.active));
   }
@@ -147,11 +149,29 @@ void PendingBricks::choose(std::span<const BrickParts> seen) {
   for (PendingBrick& brick : bricks_) brick.chosen = brick.pending & seen[brick.word];
 }
 
+void PendingBricks::weigh_chosen(const render::DepthPyramid* depths, int threads) {
+  // Of a part: it has about four cells with two triangles each.
+  constexpr std::int64_t kMost = 8;
+  for_each_brick(bricks_, threads, [&](PendingBrick& brick) {
+    brick.work = kMost * std::popcount(brick.chosen);
+    if (depths == nullptr || brick.chosen == 0) return;
+    brick.work = 0;
+    for_each_box(brick, boxes_, brick.chosen, [&](BrickParts, const render::ScreenBox& box) {
+      brick.work += std::min<std::int64_t>(kMost, depths->count_before(box));
+    });
+  });
+}
+
 void PendingBricks::finish_chosen() {
   for (PendingBrick& brick : bricks_) {
     brick.pending &= ~brick.chosen;
+    brick.drawn |= brick.chosen;
     brick.chosen = 0;
   }
+}
+
+void PendingBricks::take_up_drawn() {
+  for (PendingBrick& brick : bricks_) brick.pending = brick.drawn;
 }
 
 void PendingBricks::mark_open(const render::DepthPyramid& depths, std::span<std::uint64_t> bits) const {

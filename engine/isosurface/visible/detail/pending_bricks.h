@@ -16,6 +16,8 @@ struct PendingBrick {
   BrickParts boxed = 0;    // and are not outside of the picture: those have boxes
   BrickParts pending = 0;  // and are neither drawn nor hidden
   BrickParts chosen = 0;   // for the wave under way
+  BrickParts drawn = 0;    // in this or an earlier wave, by whatever rank
+  std::int64_t work = 0;   // of what was chosen
   std::size_t first_box = 0;
   LooseBox loose;
   render::ScreenBox box;
@@ -40,8 +42,13 @@ class PendingBricks {
   void choose(const render::DepthPyramid* depths, int threads);
   // Chooses what is pending of `seen`, by place in the table.
   void choose(std::span<const BrickParts> seen);
+  // Sets the work of what was chosen: about how many triangles it will show. depths: of earlier waves, or
+  // null.
+  void weigh_chosen(const render::DepthPyramid* depths, int threads);
   // What was chosen is done with.
   void finish_chosen();
+  // After the last wave: all that was drawn is pending again, and nothing else.
+  void take_up_drawn();
   void mark_open(const render::DepthPyramid& depths, std::span<std::uint64_t> bits) const;
 
   std::int64_t pending_parts() const;

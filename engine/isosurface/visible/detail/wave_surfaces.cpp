@@ -20,42 +20,8 @@ std::span<const render::TriangleIndices> as_indices(std::span<const Triangle> tr
   return {reinterpret_cast<const render::TriangleIndices*>(triangles.data()), triangles.size()};
 }
 
-constexpr std::int32_t kHalf = render::kSubPixels / 2;
-// Larger triangles are drawn without a look at what is behind.
-constexpr int kSmall = 64;
-
-// Whether a triangle may change a pixel.
-class Sight {
- public:
-  Sight(std::span<const render::ScreenVertex> vertices, int width, int height, const EarlierWaves& earlier)
-      : vertices_(vertices), last_x_(width - 1), last_y_(height - 1), earlier_(earlier) {}
-
-  bool meets(const Triangle& triangle) const {
-    const render::ScreenVertex& a = vertices_[triangle[0]];
-    const render::ScreenVertex& b = vertices_[triangle[1]];
-    const render::ScreenVertex& c = vertices_[triangle[2]];
-    if ((a.outside | b.outside | c.outside) != 0) return (a.outside & b.outside & c.outside) == 0;
-    const int x0 = std::max((std::min({a.x, b.x, c.x}) + kHalf - 1) >> render::kSubPixelBits, 0);
-    const int x1 = std::min((std::max({a.x, b.x, c.x}) - kHalf) >> render::kSubPixelBits, last_x_);
-    const int y0 = std::max((std::min({a.y, b.y, c.y}) + kHalf - 1) >> render::kSubPixelBits, 0);
-    const int y1 = std::min((std::max({a.y, b.y, c.y}) - kHalf) >> render::kSubPixelBits, last_y_);
-    if (x0 > x1 || y0 > y1) return false;
-    if (earlier_.depths == nullptr || x1 - x0 > kSmall || y1 - y0 > kSmall) return true;
-    const render::CoarseDepth nearest = earlier_.scale.of_box(std::min({a.depth, b.depth, c.depth}));
-    return !earlier_.depths->hides({static_cast<std::int16_t>(x0), static_cast<std::int16_t>(y0),
-                                    static_cast<std::int16_t>(x1), static_cast<std::int16_t>(y1), nearest,
-                                    nearest});
-  }
-
- private:
-  std::span<const render::ScreenVertex> vertices_;
-  int last_x_;
-  int last_y_;
-  EarlierWaves earlier_;
-};
-
 // Moves what is kept to the front, and numbers it.
-void keep_met(const Sight& sight, std::span<const PartRun> part_runs, const BrickNumbers& numbers,
+void keep_met(const Screen& screen, std::span<const PartRun> part_runs, const BrickNumbers& numbers,
               WaveSurface& wave) {
   PageVector<Triangle>& triangles = wave.surface.triangles;
   std::size_t kept = 0;
@@ -63,10 +29,7 @@ void keep_met(const Sight& sight, std::span<const PartRun> part_runs, const Bric
   for (std::size_t n = 0; n < part_runs.size(); ++n) {
     const std::size_t end = n + 1 < part_runs.size() ? part_runs[n + 1].first_triangle : triangles.size();
     const std::size_t first = kept;
-    for (std::size_t t = part_runs[n].first_triangle; t < end; ++t) {
-      triangles[kept] = triangles[t];
-      kept += sight.meets(triangles[t]) ? 1 : 0;
-    }
+    kept = keep_met(screen, triangles.all(), part_runs[n].first_triangle, end, kept);
     if (kept > first) wave.runs.push_back({first, numbers.first_of(part_runs[n])});
   }
   triangles.grow(kept);
@@ -116,7 +79,8 @@ std::int64_t WaveSurfaces::add(const Field& field, const survey::Box& bricks,
                                         {},
                                         {}},
                                        request.threads);
-  keep_met({frame_.vertices_of(place), request.width, request.height, earlier}, part_runs_, numbers, wave);
+  keep_met(Screen{frame_.vertices_of(place), request.width, request.height, earlier}, part_runs_, numbers,
+           wave);
   frame_.keep(place, as_indices(surface.triangles.all()), wave.runs);
   return static_cast<std::int64_t>(surface.triangles.size());
 }

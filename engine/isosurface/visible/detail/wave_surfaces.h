@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/isosurface/visible/brick_numbers.h"
+#include "engine/isosurface/visible/detail/met_triangles.h"
 #include "engine/isosurface/visible/visible_drawing.h"
 
 namespace footwall::isosurface::detail {
@@ -12,12 +13,6 @@ namespace footwall::isosurface::detail {
 struct WaveSurface {
   Surface surface;  // its triangles are those that were kept
   std::vector<render::IdRun> runs;
-};
-
-// Depths of earlier waves, to ask whether a triangle lies behind them; null: there are none.
-struct EarlierWaves {
-  const render::DepthPyramid* depths = nullptr;
-  render::DepthScale scale;
 };
 
 class WaveSurfaces {
