@@ -16,6 +16,16 @@ namespace {
 using isosurface::VisiblePieces;
 using isosurface::VisibleRequest;
 
+// bytes: of each rank.
+void check_memory(std::int64_t bytes, int ranks_here, const char* what, const char* hint) {
+  const std::int64_t usable = usable_memory().bytes;
+  if (bytes <= usable / ranks_here) return;
+  throw Error(ErrorCode::kMemory,
+              fmt::format("{}: {} MiB for {} ranks, and {} MiB are free", what, bytes * ranks_here >> 20,
+                          ranks_here, usable >> 20),
+              hint);
+}
+
 }  // namespace
 
 DrawnVisible VisibleSurface::draw(comm::Communicator& world, VisibleRequest request,
@@ -37,9 +47,14 @@ DrawnVisible VisibleSurface::draw(comm::Communicator& world, VisibleRequest requ
 
 void VisibleSurface::draw_depth(comm::Communicator& world, const VisibleRequest& request,
                                 const JobContext& context, const AfterPass& after_pass, DrawnVisible& drawn) {
-  // 1. Each rank reads its own part.
+  // 1. Each rank reads its own part, and draws a whole picture.
   const double start = omp_get_wtime();
+  const int ranks_here = ranks_of_this_host(world);
   world.collectively([&] {
+    const std::int64_t pixels = std::int64_t{request.width} * request.height;
+    check_memory(pixels * static_cast<std::int64_t>(sizeof(render::Visible) + sizeof(render::Rgba)),
+                 ranks_here, "what can be seen needs a whole picture on every rank",
+                 "give a smaller --size or fewer --ranks, or leave --visible out");
     context.report(0, "read");
     const auto cut = isosurface::choose_interleaving(request.volume_size, world.size(), request.bricks,
                                                      request.isovalue, true);
@@ -78,15 +93,8 @@ void VisibleSurface::draw_paper(comm::Communicator& world, const VisibleRequest&
   const survey::Box all{{0, 0, 0}, samples_.info().dims};
   const int ranks_here = ranks_of_this_host(world);
   const isosurface::Field volume = world.collectively([&] {
-    const std::int64_t needed = all.count() * static_cast<std::int64_t>(sizeof(float)) * ranks_here;
-    if (const std::int64_t usable = usable_memory().bytes; needed > usable) {
-      throw Error(
-          ErrorCode::kMemory,
-          fmt::format("mode paper needs the whole volume on every rank: {} MiB for {} ranks, of which "
-                      "{} MiB are free",
-                      needed >> 20, ranks_here, usable >> 20),
-          "use --mode depth, or fewer --ranks");
-    }
+    check_memory(all.count() * static_cast<std::int64_t>(sizeof(float)), ranks_here,
+                 "mode paper needs the whole volume on every rank", "use --mode depth, or fewer --ranks");
     return samples_.read(all);
   });
   const std::optional<isosurface::Octree> octree = world.collectively([&] {
