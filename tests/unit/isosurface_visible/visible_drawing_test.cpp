@@ -21,6 +21,16 @@ TEST(VisibleDrawing, IsThePictureOfTheWholeSurface) {
   }
 }
 
+TEST(VisibleDrawing, ShowsWhatAMaskWithoutDepthLoses) {
+  VisibleScene scene(sliver_plate_plate());
+  for (const bool perspective : {true, false}) {
+    scene.look_from({12, 12, -60}, {12, 12, 12}, perspective);
+    ASSERT_EQ(scene.difference(), "");
+    scene.look(3, -2, 1, perspective);
+    ASSERT_EQ(scene.difference(), "");
+  }
+}
+
 // Frame after frame with the same drawing: what was seen last is drawn first.
 TEST(VisibleDrawing, StaysRightWhileTheCameraMoves) {
   VisibleScene scene(gyroid({49, 40, 53}, 2));
