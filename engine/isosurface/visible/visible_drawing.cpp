@@ -23,7 +23,7 @@ using detail::WaveSurfaces;
 // Waves that look ahead; what they leave is taken by one more.
 constexpr int kLookingAhead = 2;
 // By how much more than the mean a rank may have to do, before bricks move.
-constexpr double kUneven = 0.02;
+constexpr double kUneven = 0.01;
 
 // Adds the time of its own life.
 class Stopwatch {

@@ -81,12 +81,12 @@ TEST(VisiblePicture, OfVolumesThatAreReadKeepsOnlyWhatARankNeeds) {
   }
 }
 
-TEST(VisiblePicture, WorkIsSharedEvenlyWhereverTheDataAre) {
+TEST(VisiblePicture, WorkIsSharedEvenly) {
   comm::Communicator world(MPI_COMM_WORLD);
   VisibleScene scene(ball_volume({120, 120, 120}, 50));
   scene.request.width = scene.request.height = 500;
   scene.look(20, 25, 1, true);
-  const BrickPillars pillars(scene.volume.field(), world.size(), world.rank(), {1, 1, 1});
+  const BrickPillars pillars(scene.volume.field(), world.size(), world.rank(), kVisibleInterleaving);
   VisiblePicture picture;
   VisibleReport report;
   render::ComposeReport composed;
