@@ -9,6 +9,7 @@
 #include "engine/isosurface/visible/detail/moved_bricks.h"
 #include "engine/isosurface/visible/detail/pending_bricks.h"
 #include "engine/isosurface/visible/detail/wave_surfaces.h"
+#include "engine/voxelize/simd.h"
 #include "storage/base/error.h"
 
 namespace footwall::isosurface {
@@ -120,6 +121,7 @@ struct VisibleDrawing::State {
 };
 
 void VisibleDrawing::State::prepare(std::span<const VolumePart> parts, const VisibleRequest& request) {
+  voxelize::apply_forced_simd();
   check(parts, request);
   Remembered now{request.isovalue, request.volume_size, {}, {}};
   for (const VolumePart& part : parts) {
