@@ -211,11 +211,18 @@ void SurfaceFrame::shade_rows(const VisibilityBuffer& window, int begin, int end
     const std::span<Rgba> to =
         colours.subspan(static_cast<std::size_t>(row) * visibles.size(), visibles.size());
     seen.clear();
+    PrimitiveId before = kNoPrimitive;
     for (std::size_t x = 0; x < visibles.size(); ++x) {
+      if (x + kAhead < visibles.size()) table_.fetch(primitive_of(visibles[x + kAhead]));
+      if (x + kAhead / 2 < visibles.size()) table_.fetch_entry(primitive_of(visibles[x + kAhead / 2]));
       const PrimitiveId id = primitive_of(visibles[x]);
       to[x] = 0;
       if (id == kNoPrimitive) continue;
-      if (x + kAhead < visibles.size()) table_.fetch(primitive_of(visibles[x + kAhead]));
+      if (id == before) {
+        seen.push_back({seen.back().surface, static_cast<std::int32_t>(x), seen.back().triangle});
+        continue;
+      }
+      before = id;
       const PrimitiveTable::Entry& entry = table_.entry_of(id);
       seen.push_back(
           {entry.surface, static_cast<std::int32_t>(x), entry.first_triangle + (id - entry.first_id)});

@@ -28,13 +28,16 @@ class PrimitiveTable {
     return entries_[n];
   }
 
-  // Has the entry fetched that will be asked for soon; any number.
-  void fetch(PrimitiveId id) const {
-    const std::size_t bucket = std::min<std::size_t>((id - lowest_) >> shift_, buckets_.size() - 1);
-    __builtin_prefetch(&entries_[buckets_[bucket]]);
-  }
+  // Have memory fetched for a number, or any other, that will be asked for soon: first fetch(), some later
+  // fetch_entry().
+  void fetch(PrimitiveId id) const { __builtin_prefetch(&buckets_[bucket_of(id)]); }
+  void fetch_entry(PrimitiveId id) const { __builtin_prefetch(entries_.data() + buckets_[bucket_of(id)]); }
 
  private:
+  std::size_t bucket_of(PrimitiveId id) const {
+    return std::min<std::size_t>((id - lowest_) >> shift_, buckets_.size() - 1);
+  }
+
   std::vector<Entry> entries_;  // ascending by first_id
   // The last entry at or before the first number of each 2^shift_ numbers from lowest_ on.
   std::vector<std::uint32_t> buckets_;

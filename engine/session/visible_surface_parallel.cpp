@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "engine/isosurface/parallel/choose_pillars.h"
 #include "engine/session/host_ranks.h"
 #include "engine/session/visible_surface.h"
 #include "storage/base/error.h"
@@ -56,9 +55,8 @@ void VisibleSurface::draw_depth(comm::Communicator& world, const VisibleRequest&
                  ranks_here, "what can be seen needs a whole picture on every rank",
                  "give a smaller --size or fewer --ranks, or leave --visible out");
     context.report(0, "read");
-    const auto cut = isosurface::choose_interleaving(request.volume_size, world.size(), request.bricks,
-                                                     request.isovalue, true);
-    pillars_.emplace(samples_.field_of(), request.volume_size, world.size(), world.rank(), cut);
+    pillars_.emplace(samples_.field_of(), request.volume_size, world.size(), world.rank(),
+                     isosurface::kVisibleInterleaving);
     context.report(0.5, "passes");
   });
   drawn.read_seconds = omp_get_wtime() - start;

@@ -74,6 +74,7 @@ BrickParts find_parts(const BrickSamples& samples, float isovalue) {
     }
   }
   BrickParts parts = 0;
+  const unsigned with_cells = (1U << static_cast<unsigned>(samples.size[2] / 2)) - 1;
   for (std::size_t a = 0; a < 4; ++a) {
     if (static_cast<std::int64_t>(2 * a + 1) >= samples.size[0]) break;
     for (std::size_t b = 0; b < 4; ++b) {
@@ -88,7 +89,7 @@ BrickParts find_parts(const BrickSamples& samples, float isovalue) {
       all &= all >> 1 & all >> 2;
       const unsigned mixed = any & ~all;
       const unsigned four = (mixed & 1U) | (mixed >> 1 & 2U) | (mixed >> 2 & 4U) | (mixed >> 3 & 8U);
-      parts |= static_cast<BrickParts>(four) << (16 * a + 4 * b);
+      parts |= static_cast<BrickParts>(four & with_cells) << (16 * a + 4 * b);
     }
   }
   return parts;

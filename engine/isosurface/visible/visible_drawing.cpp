@@ -9,6 +9,7 @@
 #include "engine/isosurface/visible/detail/moved_bricks.h"
 #include "engine/isosurface/visible/detail/pending_bricks.h"
 #include "engine/isosurface/visible/detail/wave_surfaces.h"
+#include "engine/voxelize/simd.h"
 #include "storage/base/error.h"
 
 namespace footwall::isosurface {
@@ -23,7 +24,7 @@ using detail::WaveSurfaces;
 // Waves that look ahead; what they leave is taken by one more.
 constexpr int kLookingAhead = 2;
 // By how much more than the mean a rank may have to do, before bricks move.
-constexpr double kUneven = 0.02;
+constexpr double kUneven = 0.01;
 
 // Adds the time of its own life.
 class Stopwatch {
@@ -73,6 +74,23 @@ void check(std::span<const VolumePart> parts, const VisibleRequest& request) {
   }
 }
 
+// Times of the slowest rank for each part of each pass.
+void tell_slowest(Ranks& ranks, VisibleReport& report) {
+  constexpr double kNano = 1e9;
+  constexpr std::array kParts{&VisiblePass::Seconds::visibility, &VisiblePass::Seconds::partition,
+                              &VisiblePass::Seconds::assign, &VisiblePass::Seconds::extract,
+                              &VisiblePass::Seconds::composite};
+  std::vector<std::int64_t> times;
+  for (const VisiblePass& pass : report.passes) {
+    for (const auto part : kParts) times.push_back(static_cast<std::int64_t>(pass.seconds.*part * kNano));
+  }
+  ranks.most(times);
+  std::size_t at = 0;
+  for (VisiblePass& pass : report.passes) {
+    for (const auto part : kParts) pass.seconds.*part = static_cast<double>(times[at++]) / kNano;
+  }
+}
+
 }  // namespace
 
 struct VisibleDrawing::State {
@@ -95,12 +113,15 @@ struct VisibleDrawing::State {
              VisiblePass::Seconds& seconds);
   std::int64_t extract_chosen(std::span<const VolumePart> parts, const VisibleRequest& request,
                               const EarlierWaves& earlier);
+  void draw_wave(Ranks& ranks, std::span<const VolumePart> parts, const VisibleRequest& request,
+                 const EarlierWaves& earlier, VisiblePass& pass);
   void merge_depths(Ranks& ranks, const render::DepthScale& scale);
   std::int64_t count_open(Ranks& ranks);
   void remember_seen(const VisibleRequest& request, std::size_t wave);
 };
 
 void VisibleDrawing::State::prepare(std::span<const VolumePart> parts, const VisibleRequest& request) {
+  voxelize::apply_forced_simd();
   check(parts, request);
   Remembered now{request.isovalue, request.volume_size, {}, {}};
   for (const VolumePart& part : parts) {
@@ -249,8 +270,10 @@ void VisibleDrawing::State::merge_depths(Ranks& ranks, const render::DepthScale&
 
 // Pixels that show nothing and that something pending may cover.
 std::int64_t VisibleDrawing::State::count_open(Ranks& ranks) {
-  open_bits.assign(merged.words_a_row() * static_cast<std::size_t>(merged.height()), 0);
-  pending.mark_open(merged, open_bits);
+  ranks.together([&] {
+    open_bits.assign(merged.words_a_row() * static_cast<std::size_t>(merged.height()), 0);
+    pending.mark_open(merged, open_bits);
+  });
   ranks.any(open_bits);
   std::int64_t count = 0;
   for (const std::uint64_t word : open_bits) count += std::popcount(word);
@@ -273,11 +296,38 @@ void VisibleDrawing::forget() {
   state_->seen.clear();
 }
 
+// Triangles of the chosen parts; tells how many there are and how evenly they are spread.
+void VisibleDrawing::State::draw_wave(Ranks& ranks, std::span<const VolumePart> parts,
+                                      const VisibleRequest& request, const EarlierWaves& earlier,
+                                      VisiblePass& pass) {
+  const Stopwatch time(pass.seconds.extract);
+  std::array<std::int64_t, 2> mine{pending.chosen_bricks() + static_cast<std::int64_t>(taken.size()), 0};
+  ranks.together([&] {
+    mine[1] = extract_chosen(parts, request, earlier);
+    pending.finish_chosen();
+  });
+  const std::vector<std::int64_t> loads = ranks.all(mine);
+  std::vector<std::int64_t> cells;
+  std::vector<std::int64_t> triangles;
+  for (std::size_t n = 0; n < loads.size(); n += 2) {
+    cells.push_back(loads[n]);
+    triangles.push_back(loads[n + 1]);
+    pass.cells += loads[n];
+    pass.triangles += loads[n + 1];
+  }
+  pass.load_difference = load_difference(cells, triangles);
+}
+
 VisibleReport VisibleDrawing::draw(Ranks& ranks, std::span<const VolumePart> parts,
                                    const VisibleRequest& request,
                                    const std::function<void(int)>& after_wave) {
   const double start = omp_get_wtime();
   State& state = *state_;
+  const auto count_of_all = [&](std::int64_t mine) {
+    std::array<std::int64_t, 1> count{mine};
+    ranks.sum(count);
+    return count[0];
+  };
   VisibleReport report;
   double visibility = 0;
   render::DepthScale scale;
@@ -286,7 +336,9 @@ VisibleReport VisibleDrawing::draw(Ranks& ranks, std::span<const VolumePart> par
     ranks.together([&] { state.prepare(parts, request); });
     scale = state.place(ranks, request);
   }
+  std::int64_t left = count_of_all(state.pending.pending_parts());
   for (int wave = 1;; ++wave) {
+    const double wave_start = omp_get_wtime();
     VisiblePass pass;
     pass.seconds.visibility = std::exchange(visibility, 0);
     {
@@ -294,57 +346,37 @@ VisibleReport VisibleDrawing::draw(Ranks& ranks, std::span<const VolumePart> par
       state.choose(ranks, request, wave);
     }
     state.share(ranks, parts, request, wave, pass.seconds);
-
-    std::array<std::int64_t, 2> mine{
-        state.pending.chosen_bricks() + static_cast<std::int64_t>(state.taken.size()), 0};
-    ranks.together([&] {
-      const Stopwatch time(pass.seconds.extract);
-      const EarlierWaves earlier{wave > 1 ? &state.merged : nullptr, scale};
-      mine[1] = state.extract_chosen(parts, request, earlier);
-      state.pending.finish_chosen();
-    });
+    state.draw_wave(ranks, parts, request, {wave > 1 ? &state.merged : nullptr, scale}, pass);
     if (after_wave) after_wave(wave);
-
-    const std::vector<std::int64_t> loads = ranks.all(mine);
-    std::vector<std::int64_t> cells;
-    std::vector<std::int64_t> triangles;
-    for (std::size_t n = 0; n < loads.size(); n += 2) {
-      cells.push_back(loads[n]);
-      triangles.push_back(loads[n + 1]);
-      pass.cells += loads[n];
-      pass.triangles += loads[n + 1];
-    }
-    pass.load_difference = load_difference(cells, triangles);
-    std::array<std::int64_t, 1> left{state.pending.pending_parts()};
-    ranks.sum(left);
-    bool goes_on = left[0] > 0;
-    if (goes_on) {
+    const std::int64_t before = std::exchange(left, count_of_all(state.pending.pending_parts()));
+    if (left > 0) {
       {
         const Stopwatch time(pass.seconds.composite);
         state.merge_depths(ranks, scale);
       }
       const Stopwatch time(visibility);
+      const std::int64_t drawn = before - left;
       ranks.together([&] { state.pending.give_up_hidden(state.merged, request.threads); });
       pass.uncovered_pixels = state.count_open(ranks);
+      left = count_of_all(state.pending.pending_parts());
+      // The next wave may take all that is left, at this one's speed.
       const double now = omp_get_wtime();
-      const bool is_late = request.budget_seconds && now - start >= *request.budget_seconds;
-      std::array<std::int64_t, 1> late{is_late ? 1 : 0};
+      const double share =
+          std::min(1.0, static_cast<double>(left) / static_cast<double>(std::max<std::int64_t>(drawn, 1)));
+      const bool is_late =
+          request.budget_seconds && now - start + share * (now - wave_start) > *request.budget_seconds;
+      std::array<std::int64_t, 1> late{is_late || wave == request.passes ? 1 : 0};
       ranks.most(late);
-      left[0] = state.pending.pending_parts();
-      ranks.sum(left);
-      goes_on = left[0] > 0;
-      if (goes_on && (late[0] != 0 || wave == request.passes)) {
-        report.finished = false;
-        goes_on = false;
-      }
+      report.finished = left == 0 || late[0] == 0;
     }
     report.passes.push_back(pass);
-    if (!goes_on) break;
+    if (left == 0 || !report.finished) break;
   }
   ranks.together([&] {
     state.surfaces.frame().number();
     state.remember_seen(request, report.passes.size());
   });
+  tell_slowest(ranks, report);
   report.sum_up();
   return report;
 }

@@ -3,30 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "engine/isosurface/visible/parallel/brick_pillars.h"
+#include "mpi/isosurface_visible/layer_difference.h"
 #include "rounds.h"
 #include "unit/isosurface_visible/visible_scene.h"
 
 namespace footwall::isosurface {
 namespace {
-
-// "" where the layer shows what the whole surface's picture shows.
-std::string difference(const verify::SurfacePicture& whole, const render::SurfaceLayer& layer) {
-  const auto width = static_cast<std::size_t>(whole.width);
-  std::vector<float> depths(width);
-  std::vector<render::Rgba> colours(width);
-  for (int y = 0; y < whole.height; ++y) {
-    layer.row(y, depths, colours);
-    const std::size_t first = static_cast<std::size_t>(y) * width;
-    for (std::size_t x = 0; x < width; ++x) {
-      if (depths[x] != whole.depths[first + x] || colours[x] != whole.colours[first + x])
-        return "pixel " + std::to_string(x) + ", " + std::to_string(y);
-    }
-  }
-  return "";
-}
 
 void expect_alike(const VisibleReport& here, const VisibleReport& alone) {
   EXPECT_EQ(here.triangles, alone.triangles);
@@ -98,12 +81,12 @@ TEST(VisiblePicture, OfVolumesThatAreReadKeepsOnlyWhatARankNeeds) {
   }
 }
 
-TEST(VisiblePicture, WorkIsSharedEvenlyWhereverTheDataAre) {
+TEST(VisiblePicture, WorkIsSharedEvenly) {
   comm::Communicator world(MPI_COMM_WORLD);
   VisibleScene scene(ball_volume({120, 120, 120}, 50));
   scene.request.width = scene.request.height = 500;
   scene.look(20, 25, 1, true);
-  const BrickPillars pillars(scene.volume.field(), world.size(), world.rank(), {1, 1, 1});
+  const BrickPillars pillars(scene.volume.field(), world.size(), world.rank(), kVisibleInterleaving);
   VisiblePicture picture;
   VisibleReport report;
   render::ComposeReport composed;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/voxelize/simd.h"
 #include "rounds.h"
 #include "storage/base/error.h"
 #include "unit/isosurface_visible/visible_scene.h"
@@ -21,6 +22,16 @@ TEST(VisibleDrawing, IsThePictureOfTheWholeSurface) {
   }
 }
 
+TEST(VisibleDrawing, ShowsWhatAMaskWithoutDepthLoses) {
+  VisibleScene scene(sliver_plate_plate());
+  for (const bool perspective : {true, false}) {
+    scene.look_from({12, 12, -60}, {12, 12, 12}, perspective);
+    ASSERT_EQ(scene.difference(), "");
+    scene.look(3, -2, 1, perspective);
+    ASSERT_EQ(scene.difference(), "");
+  }
+}
+
 // Frame after frame with the same drawing: what was seen last is drawn first.
 TEST(VisibleDrawing, StaysRightWhileTheCameraMoves) {
   VisibleScene scene(gyroid({49, 40, 53}, 2));
@@ -37,6 +48,27 @@ TEST(VisibleDrawing, StaysRightWhileTheCameraMoves) {
     if (frame == 3) scene.request.isovalue = 0.4F;
     ASSERT_EQ(scene.difference(drawing, report), "") << frame;
   }
+}
+
+TEST(VisibleDrawing, IsTheSameOnAllInstructionSetsAndThreadCounts) {
+  VisibleScene scene(gyroid({49, 40, 53}, 3));
+  scene.look(20, 10, 1.2, true);
+  VisibleDrawing drawing;
+  VisibleReport first;
+  ASSERT_EQ(scene.difference(drawing, first), "");
+  for (const auto level : {SimdLevel::kBaseline, SimdLevel::kAvx2, SimdLevel::kAvx512}) {
+    voxelize::limit_simd(level);
+    for (int threads = 1; threads <= 3; ++threads) {
+      scene.request.threads = threads;
+      drawing.forget();
+      VisibleReport report;
+      EXPECT_EQ(scene.difference(drawing, report), "");
+      EXPECT_EQ(report.passes.size(), first.passes.size());
+      EXPECT_EQ(report.triangles, first.triangles);
+      EXPECT_EQ(report.passes[0].uncovered_pixels, first.passes[0].uncovered_pixels);
+    }
+  }
+  voxelize::limit_simd(std::nullopt);
 }
 
 TEST(VisibleDrawing, MostIsThereAfterTheFirstWave) {

@@ -92,6 +92,22 @@ struct VisibleScene {
   VisibleRequest request;
 };
 
+// What a mask without depth loses: before, in one brick, a sliver; behind it a plate that fills the same
+// bricks' places in the picture; behind that a larger plate. Drawn with the sliver, the larger plate covers
+// the pixels of the plate in the middle, of which nothing was drawn yet.
+inline SampleVolume sliver_plate_plate() {
+  const auto box = [](double i, double j, double k, double half, double middle_k, double half_k) {
+    return std::min({half - std::abs(i - 12), half - std::abs(j - 12), half_k - std::abs(k - middle_k)});
+  };
+  return sampled({25, 25, 25}, [=](auto i, auto j, auto k) {
+    const auto x = static_cast<double>(i);
+    const auto y = static_cast<double>(j);
+    const auto z = static_cast<double>(k);
+    const double sliver = std::min({0.6 - std::abs(x - 9), 3.4 - std::abs(y - 12), 1.4 - std::abs(z - 4)});
+    return std::max({sliver, box(x, y, z, 3.3, 12, 1.3), box(x, y, z, 10.2, 20, 1.3)});
+  });
+}
+
 inline SampleVolume gyroid(const survey::Index& size, double turns) {
   return sampled(size, [&](auto i, auto j, auto k) {
     const double s = turns * 2 * std::numbers::pi / static_cast<double>(size[0]);

@@ -74,13 +74,15 @@ std::vector<Move> moves_for(std::span<const std::int64_t> work_of_ranks, double 
 std::vector<std::vector<std::byte>> give_away(std::span<const Move> moves, int rank, int ranks,
                                               std::span<const VolumePart> parts, PendingBricks& bricks) {
   std::vector<std::vector<std::byte>> messages(static_cast<std::size_t>(ranks));
-  // Those with the most work first: few messages' bytes for it.
+  // In no order: how much work a brick turns out to be differs from what was thought by what it is like, and
+  // many of all kinds are off by less than many of one kind.
   std::vector<PendingBrick*> order;
   for (PendingBrick& brick : bricks.bricks()) {
     if (brick.chosen != 0) order.push_back(&brick);
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [](const PendingBrick* a, const PendingBrick* b) { return a->work > b->work; });
+  const auto shuffled = [](const PendingBrick* brick) { return brick->word * 0x9e3779b97f4a7c15U; };
+  std::sort(order.begin(), order.end(),
+            [&](const PendingBrick* a, const PendingBrick* b) { return shuffled(a) < shuffled(b); });
   for (const Move& move : moves) {
     if (move.from != rank) continue;
     std::int64_t left = move.work;

@@ -14,6 +14,10 @@
 
 namespace footwall::isosurface {
 
+// Fine enough that every rank has some of whatever is seen: little has to move then, and what is not foreseen
+// of the work is much the same on all.
+inline constexpr Interleaving kVisibleInterleaving{8, 8, 1};
+
 // The boxes of bricks of one rank; volume: samples.
 std::vector<survey::Box> bricks_of_rank(const survey::Index& volume, int ranks, int rank,
                                         const Interleaving& interleaving);
