@@ -133,17 +133,26 @@ void make_empty(Surface& into) {
   into.row_first.assign(static_cast<std::size_t>(into.cells.size(0) * into.cells.size(1)) + 1, 0);
 }
 
+void gather_part_runs(const std::vector<Besides>& besides, std::vector<PartRun>& into) {
+  for (const Besides& made : besides) {
+    into.insert(into.end(), made.part_runs.begin(), made.part_runs.end());
+  }
+  std::sort(into.begin(), into.end(),
+            [](const PartRun& a, const PartRun& b) { return a.first_triangle < b.first_triangle; });
+}
+
 }  // namespace
 
 void extract_bricks(const Field& field, float isovalue, const ExtractOptions& options, Surface& into) {
   voxelize::apply_forced_simd();
   into.cells = options.cells.value_or(cells_of(field));
+  if (options.part_runs != nullptr) options.part_runs->clear();
   if (into.cells.empty()) {
     make_empty(into);
     return;
   }
   const Frame frame(field, isovalue, into.cells);
-  const CellMasks masks(frame, options.bricks);
+  const CellMasks masks(frame, options.bricks, options.parts);
   const CaseLookup cases;
   into.row_first.resize(static_cast<std::size_t>(frame.cell_planes * frame.cell_rows) + 1);
   Order order(options, into);
@@ -155,18 +164,19 @@ void extract_bricks(const Field& field, float isovalue, const ExtractOptions& op
   const int threads = many ? options.threads : 1;
   const std::int64_t most_planes = many ? kPlanesOfRun : 1;
   const std::vector<Run> runs = runs_of(frame, most_planes, threads);
-  std::vector<std::vector<CentreLoop>> centres(static_cast<std::size_t>(threads));
+  std::vector<Besides> besides(static_cast<std::size_t>(threads));
   std::atomic<std::size_t> next = 0;
   for_each_in_parallel(threads, threads, [&](std::int64_t n, int) {
     try {
-      March march(frame, masks, cases, most_planes, into.row_first.data(),
-                  centres[static_cast<std::size_t>(n)]);
+      Besides& mine = besides[static_cast<std::size_t>(n)];
+      March march(frame, masks, cases, most_planes, into.row_first.data(), mine);
       for (std::size_t run = next++; run < runs.size(); run = next++) {
         const Count count = march.find(runs[run]);
         const std::optional<Place> place = order.place(static_cast<std::int64_t>(run), count);
         if (!place) return;
         if (many) order.prepare(*place, count);
         march.write(*place);
+        if (options.part_runs != nullptr) march.list_parts(*place);
       }
     } catch (...) {
       order.give_up();
@@ -174,9 +184,10 @@ void extract_bricks(const Field& field, float isovalue, const ExtractOptions& op
     }
   });
   order.finish();
-  for (const std::vector<CentreLoop>& loops : centres) {
-    write_centres(loops, into.positions.data(), options.normals ? into.normals.data() : nullptr);
+  for (const Besides& made : besides) {
+    write_centres(made.centres, into.positions.data(), options.normals ? into.normals.data() : nullptr);
   }
+  if (options.part_runs != nullptr) gather_part_runs(besides, *options.part_runs);
 }
 
 }  // namespace footwall::isosurface

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/render/clip.h"
 #include "engine/render/rasterizer.h"
 #include "storage/base/error.h"
 
@@ -11,7 +12,8 @@ namespace footwall::render {
 namespace {
 
 constexpr int kPlanes = 6;
-constexpr int kMostCorners = 3 + kPlanes;
+constexpr int kMostCorners = ClippedFan::kMostCorners;
+static_assert(kMostCorners == 3 + kPlanes);
 
 // Signed distance to the n-th plane of the guarded view volume, scaled; inside is >= 0. The sides lie at the
 // guard band, far outside of the picture, so that hardly any triangle meets them.
@@ -87,13 +89,13 @@ ScreenVertex projected(const Vec4& clip, int width, int height) {
   return rounded(clip, width, height, 0);
 }
 
-void rasterize_clip(const Vec4& a, const Vec4& b, const Vec4& c, PrimitiveId id, VisibilityBuffer& into) {
-  const double guard_x = 2.0 * kGuardBand / into.width();
-  const double guard_y = 2.0 * kGuardBand / into.height();
+ClippedFan clipped_fan(const Vec4& a, const Vec4& b, const Vec4& c, int width, int height) {
+  const double guard_x = 2.0 * kGuardBand / width;
+  const double guard_y = 2.0 * kGuardBand / height;
   const std::uint32_t oa = outside_of(a, guard_x, guard_y);
   const std::uint32_t ob = outside_of(b, guard_x, guard_y);
   const std::uint32_t oc = outside_of(c, guard_x, guard_y);
-  if (((oa | ob | oc) & kNotFinite) != 0 || (oa & ob & oc) != 0) return;
+  if (((oa | ob | oc) & kNotFinite) != 0 || (oa & ob & oc) != 0) return {};
   Polygon polygon;
   polygon.corners[0] = a;
   polygon.corners[1] = b;
@@ -103,15 +105,21 @@ void rasterize_clip(const Vec4& a, const Vec4& b, const Vec4& c, PrimitiveId id,
     if (((oa | ob | oc) >> static_cast<unsigned>(plane) & 1U) != 0)
       polygon = clipped(polygon, plane, guard_x, guard_y);
   }
-  std::array<ScreenVertex, kMostCorners> corners;
+  ClippedFan fan;
   for (int n = 0; n < polygon.count; ++n) {
     const Vec4& p = polygon.corners[static_cast<std::size_t>(n)];
-    if (!(p.w > 0)) return;  // only through a matrix whose near plane does not keep the eye out
-    corners[static_cast<std::size_t>(n)] = rounded(p, into.width(), into.height(), 0);
+    if (!(p.w > 0)) return {};  // only through a matrix whose near plane does not keep the eye out
+    fan.corners[static_cast<std::size_t>(n)] = rounded(p, width, height, 0);
   }
-  for (int n = 2; n < polygon.count; ++n) {
-    rasterize_screen(corners[0], corners[static_cast<std::size_t>(n - 1)],
-                     corners[static_cast<std::size_t>(n)], id, into);
+  fan.count = polygon.count;
+  return fan;
+}
+
+void rasterize_clip(const Vec4& a, const Vec4& b, const Vec4& c, PrimitiveId id, VisibilityBuffer& into) {
+  const ClippedFan fan = clipped_fan(a, b, c, into.width(), into.height());
+  for (int n = 2; n < fan.count; ++n) {
+    rasterize_screen(fan.corners[0], fan.corners[static_cast<std::size_t>(n - 1)],
+                     fan.corners[static_cast<std::size_t>(n)], id, into);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/session/camera_json.h"
 #include "engine/session/job_json.h"
 #include "storage/base/error.h"
 
@@ -9,6 +10,26 @@ namespace footwall::session {
 namespace {
 
 using Json = nlohmann::json;
+
+Json json_of(const VisibleView& view) {
+  return {{"choice", session::json_of(view.choice)},
+          {"camera", session::json_of(view.camera)},
+          {"placement", session::json_of(view.placement)},
+          {"width", view.width},
+          {"height", view.height},
+          {"colour", view.colour}};
+}
+
+VisibleView visible_view_from(const Json& json) {
+  VisibleView view;
+  view.choice = visible_choice_from(json.at("choice"));
+  view.camera = camera_from(json.at("camera"));
+  view.placement = placement_from(json.at("placement"));
+  view.width = json.at("width").get<int>();
+  view.height = json.at("height").get<int>();
+  view.colour = json.at("colour").get<render::Rgba>();
+  return view;
+}
 
 }  // namespace
 
@@ -23,6 +44,7 @@ void write_isosurface_job(const IsosurfaceJob& job, const std::filesystem::path&
                   {"largest", job.largest},
                   {"min_area", job.min_area},
                   {"velocity", job.velocity ? Json(*job.velocity) : Json()},
+                  {"visible", job.visible ? json_of(*job.visible) : Json()},
                   {"output", job.output.string()},
                   {"result", job.result.string()}};
   write_job_json(
@@ -48,6 +70,7 @@ IsosurfaceJob read_isosurface_job(const std::filesystem::path& path) {
     job.largest = json.at("largest").get<std::uint64_t>();
     job.min_area = json.at("min_area").get<double>();
     if (!json.at("velocity").is_null()) job.velocity = json.at("velocity").get<double>();
+    if (!json.at("visible").is_null()) job.visible = visible_view_from(json.at("visible"));
     job.output = json.at("output").get<std::string>();
     job.result = json.at("result").get<std::string>();
     return job;

@@ -11,7 +11,10 @@
 #include "engine/isosurface/parallel/stored_samples.h"
 #include "engine/isosurface/parallel/weld.h"
 #include "engine/isosurface/registry.h"
+#include "engine/session/group_options.h"
 #include "engine/session/isosurface_job.h"
+#include "engine/session/visible_mesh.h"
+#include "engine/session/visible_surface.h"
 #include "storage/base/hash.h"
 #include "storage/base/partial_file.h"
 #include "storage/surface/surface_writer_parallel.h"
@@ -86,7 +89,7 @@ class Run {
     units_ = world.collectively([&] { return units_of(samples_.info().geometry, job.velocity); });
   }
 
-  // 1. Which pillars, and their triangles.
+  // 1. Which pillars, and their triangles; or the triangles that can be seen.
   void extract();
   // 2. One mesh, and what it is.
   void weld();
@@ -102,6 +105,8 @@ class Run {
   }
 
  private:
+  void extract_whole();
+  void extract_visible();
   void step(double fraction, const char* phase) {
     world_.collectively([&] { context_.report(fraction, phase); });
   }
@@ -117,6 +122,7 @@ class Run {
   Units units_;
   isosurface::Interleaving interleaving_{1, 1, 1};
   std::vector<isosurface::Piece> pieces_;
+  std::optional<VisibleSurface> visible_;
   MeshPart part_;
   isosurface::Properties properties_;
   Json seconds_ = Json::object();
@@ -125,6 +131,45 @@ class Run {
 };
 
 void Run::extract() {
+  if (job_.visible) {
+    extract_visible();
+  } else {
+    extract_whole();
+  }
+}
+
+void Run::extract_visible() {
+  const VisibleView& view = *job_.visible;
+  isosurface::VisibleRequest request;
+  view.choice.apply_to(request);
+  request.isovalue = job_.value;
+  request.placement = view.placement;
+  request.camera = view.camera;
+  request.colour = view.colour;
+  request.width = view.width;
+  request.height = view.height;
+  request.threads = omp_get_max_threads();
+  int layers = 0;
+  VisibleSurface::AfterPass after_pass;
+  if (!view.choice.pass_layers.empty()) {
+    after_pass = [&](const render::SurfaceLayer& layer) {
+      ++layers;
+      world_.collectively([&] {
+        if (world_.rank() == 0) layer.write(view.choice.pass_layer(layers));
+      });
+    };
+  }
+  visible_.emplace(samples_);
+  const DrawnVisible drawn = visible_->draw(world_, request, group_options(world_, 0.1, request.threads),
+                                            context_.part(0.02, 0.6), after_pass);
+  counts_ = json_of(drawn.report);
+  counts_.erase("triangles");
+  counts_["mode"] = name_of(view.choice.mode);
+  counts_["pass_layers"] = layers;
+  counts_["bytes_read"] = sum(samples_.bytes_read());
+}
+
+void Run::extract_whole() {
   interleaving_ = world_.collectively([&] {
     if (job_.pillars) return *job_.pillars;
     return isosurface::choose_interleaving(samples_.info().dims, world_.size(), samples_.bricks(), job_.value,
@@ -154,6 +199,11 @@ void Run::extract() {
 
 void Run::weld() {
   step(0.6, "weld");
+  if (visible_) {
+    part_ = visible_mesh(world_, samples_.info().dims, visible_->surfaces());
+    visible_.reset();
+    return;
+  }
   const isosurface::Pillars pillars(samples_.info().dims, world_.size(), interleaving_);
   part_ = isosurface::weld(world_, pillars, true, pieces_);
   counts_["redundant_intersections"] = sum(part_.computed) - static_cast<std::int64_t>(part_.all_vertices);
@@ -222,12 +272,13 @@ void Run::write() {
   if (!job_.world) share.positions = floats(positions);
   share.normals = floats(normals);
   share.triangles = {reinterpret_cast<const std::uint32_t*>(triangles.data()), triangles.size() * 3};
-  const Json description{
+  Json description{
       {"isosurface", {{"value", job_.value}, {"capped", job_.cap}}},
       {"volume", {{"file", job_.volume.filename().string()}, {"checksum", to_hex(samples_.info().checksum)}}},
       {"coordinates", job_.world ? "world" : "index"},
       {"z_positive", "down"},
       {"normals", "to lower values"}};
+  if (job_.visible) description["isosurface"]["only_visible"] = true;
   // The writer throws on all ranks or on none.
   world_.collectively([&] {
     surface::write_surface_parallel(world_.get(), job_.output,
@@ -241,7 +292,7 @@ Json Run::result() const {
   Json json = counts_;
   json["ranks"] = world_.size();
   json["threads"] = omp_get_max_threads();
-  json["pillars"] = isosurface::text_of(interleaving_);
+  if (!job_.visible) json["pillars"] = isosurface::text_of(interleaving_);
   json["vertices"] = found.vertices;
   json["triangles"] = found.triangles;
   json["components"] = found.components.size();

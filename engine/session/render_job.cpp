@@ -7,42 +7,17 @@
 #include "engine/isosurface/parallel/choose_pillars.h"
 #include "engine/isosurface/parallel/stored_samples.h"
 #include "engine/render/composite/compose.h"
+#include "engine/session/camera_json.h"
 #include "engine/session/drawn_pieces.h"
 #include "engine/session/group_options.h"
 #include "engine/session/job_json.h"
+#include "engine/session/visible_render.h"
 #include "storage/base/partial_file.h"
 
 namespace footwall::session {
 namespace {
 
 using Json = nlohmann::json;
-
-Json json_of(const render::Vec3& v) {
-  return {v.x, v.y, v.z};
-}
-render::Vec3 vector_from(const Json& json) {
-  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
-}
-
-Json json_of(const render::Camera& camera) {
-  return {{"view_projection", camera.view_projection},
-          {"eye", json_of(camera.eye)},
-          {"right", json_of(camera.right)},
-          {"up", json_of(camera.up)},
-          {"forward", json_of(camera.forward)},
-          {"perspective", camera.perspective}};
-}
-
-render::Camera camera_from(const Json& json) {
-  render::Camera camera;
-  camera.view_projection = json.at("view_projection").get<render::Matrix4>();
-  camera.eye = vector_from(json.at("eye"));
-  camera.right = vector_from(json.at("right"));
-  camera.up = vector_from(json.at("up"));
-  camera.forward = vector_from(json.at("forward"));
-  camera.perspective = json.at("perspective").get<bool>();
-  return camera;
-}
 
 // What a rank has of each isosurface.
 struct Extracted {
@@ -78,14 +53,14 @@ void write_render_job(const RenderJob& job, const std::filesystem::path& path) {
             {"group_threshold", json_of_threshold(job.group_threshold)},
             {"interleave", job.interleave},
             {"camera", json_of(job.camera)},
+            {"visible", job.visible ? json_of(*job.visible) : Json()},
             {"layer", job.layer.string()},
             {"result", job.result.string()}};
   for (const RenderJob::Isosurface& surface : job.isosurfaces) {
     json["isosurfaces"].push_back({{"volume", surface.volume.string()},
                                    {"value", surface.value},
                                    {"colour", surface.colour},
-                                   {"linear", surface.placement.linear},
-                                   {"shift", json_of(surface.placement.shift)}});
+                                   {"placement", json_of(surface.placement)}});
   }
   write_job_json(json, path, "the path " + job.layer.string() + " or a volume's: it is not UTF-8");
 }
@@ -103,6 +78,7 @@ RenderJob read_render_job(const std::filesystem::path& path) {
     job.group_threshold = threshold_from(json.at("group_threshold"));
     job.interleave = json.at("interleave").get<std::string>();
     job.camera = camera_from(json.at("camera"));
+    if (!json.at("visible").is_null()) job.visible = visible_choice_from(json.at("visible"));
     job.layer = json.at("layer").get<std::string>();
     job.result = json.at("result").get<std::string>();
     if (job.threads < 1) throw odd;
@@ -111,8 +87,7 @@ RenderJob read_render_job(const std::filesystem::path& path) {
       surface.volume = each.at("volume").get<std::string>();
       surface.value = each.at("value").get<float>();
       surface.colour = each.at("colour").get<render::Rgba>();
-      surface.placement.linear = each.at("linear").get<std::array<double, 9>>();
-      surface.placement.shift = vector_from(each.at("shift"));
+      surface.placement = placement_from(each.at("placement"));
     }
     return job;
   } catch (const Json::exception&) {
@@ -125,6 +100,10 @@ void run_render(const comm::Communicator& parent, const std::filesystem::path& j
   const double start = omp_get_wtime();
   const RenderJob job = parent.collectively([&] { return read_render_job(job_path); });
   comm::Communicator world(parent.get());
+  if (job.visible) {
+    run_visible_render(world, job, context);
+    return;
+  }
 
   std::vector<Extracted> extracted;
   std::uint64_t triangles = 0;

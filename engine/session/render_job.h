@@ -10,13 +10,14 @@
 #include "engine/comm/communicator.h"
 #include "engine/render/camera.h"
 #include "engine/render/lit_surface.h"
+#include "engine/session/visible_choice.h"
 #include "storage/base/job_context.h"
 
 namespace footwall::session {
 
-// On disk as JSON: {footwall_render: 1, width, height, threads, group_threshold, interleave, camera:
-// {view_projection[16], eye, right, up, forward, perspective}, isosurfaces: [{volume, value, colour,
-// linear[9], shift}], layer, result}.
+// On disk as JSON: {footwall_render: 1, width, height, threads, group_threshold, interleave, camera
+// (camera_json.h), visible (visible_choice.h, or null), isosurfaces: [{volume, value, colour, placement}],
+// layer, result}.
 struct RenderJob {
   struct Isosurface {
     std::filesystem::path volume;  // absolute, like the others
@@ -31,9 +32,11 @@ struct RenderJob {
   std::string interleave = "auto";              // or "AxB", "AxBxC" (pillars.h)
   render::Camera camera;
   std::vector<Isosurface> isosurfaces;
-  std::filesystem::path layer;  // surface_layer.h
+  std::optional<VisibleChoice> visible;  // none: all of the isosurfaces is extracted
+  std::filesystem::path layer;           // surface_layer.h
   // {ranks, seconds: {read, extract, group, project, rasterize, shade, merge, gather, total}, isosurfaces:
-  // [{triangles}], bytes_sent, messages, merged_bytes, merged_pixels, layer_bytes}, written last
+  // [{triangles}] or, of what can be seen, those of VisibleReport (visible_choice.h), bytes_sent, messages,
+  // merged_bytes, merged_pixels, layer_bytes}, written last
   std::filesystem::path result;
 };
 

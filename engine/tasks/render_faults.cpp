@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "engine/render/fault_picture.h"
 #include "engine/tasks/face_tables.h"
@@ -11,6 +12,7 @@
 #include "engine/tasks/render_camera.h"
 #include "engine/tasks/statistics.h"
 #include "engine/tasks/triangulate.h"
+#include "engine/tasks/visible.h"
 #include "storage/base/error.h"
 #include "storage/base/text.h"
 #include "storage/formats/png.h"
@@ -157,6 +159,16 @@ void add_faults(const project::Project& project, const RenderOptions& options, r
   if (faces.run) picture.statistic.note = fmt::format("{}, volume {}", faces.run->name, faces.run->volume);
 }
 
+// Says of each isosurface that a budget ended.
+void add_end_notices(const RenderOptions& options, Rendered& done) {
+  const auto result = nlohmann::json::parse(done.engine_json);
+  for (std::size_t n = 0; n < done.isosurfaces.size(); ++n) {
+    std::string notice =
+        end_notice(done.isosurfaces[n], *options.drawing.visible, result.at("isosurfaces").at(n));
+    if (!notice.empty()) done.notices.push_back(std::move(notice));
+  }
+}
+
 // Before the engine is started for a picture that nobody could draw.
 void check_size(const RenderOptions& options) {
   if (options.width >= 1 && options.height >= 1 && options.width <= render::kLargestPicture &&
@@ -207,14 +219,25 @@ Rendered render_faults(const project::Project& project, const RenderOptions& opt
   const render::Composition made = render::compose(picture, options.width, options.height);
   DrawnIsosurfaces surfaces;
   if (!wanted.empty()) {
+    PassImages images(options.pass_images);
+    DrawingOptions drawing = options.drawing;
+    if (images.are_wanted()) {
+      drawing.after_passes = [&](const session::VisibleChoice& choice, int count) {
+        images.write(choice, count, made, options.width, options.height, options.threads, job.part(0.6, 0.7));
+      };
+    }
     surfaces = draw_isosurfaces(project, wanted, made.frame, made.camera, options.width * render::kSamples,
-                                options.height * render::kSamples, options.drawing, job.part(0.2, 0.7));
+                                options.height * render::kSamples, drawing,
+                                job.part(0.2, images.are_wanted() ? 0.6 : 0.7));
+    done.pass_images = images.paths();
     done.triangles = surfaces.triangles;
     done.engine_json = surfaces.result_json;
+    if (options.drawing.visible) add_end_notices(options, done);
     for (std::size_t n = 0; n < wanted.size(); ++n) {
       if (surfaces.triangles[n] > 0) continue;
-      done.notices.push_back(fmt::format("{} has no triangles: the volume's values are {:.6g} to {:.6g}",
-                                         wanted[n].name, wanted[n].volume.min, wanted[n].volume.max));
+      done.notices.push_back(fmt::format("{} has no triangles{}: the volume's values are {:.6g} to {:.6g}",
+                                         wanted[n].name, options.drawing.visible ? " that can be seen" : "",
+                                         wanted[n].volume.min, wanted[n].volume.max));
     }
   }
   job.report(0.7, "draw");

@@ -18,7 +18,8 @@ struct RenderOptions {
       sections;        // "inline=N", "crossline=N", "z=VALUE"; N may be "first", "middle" or "last"
   std::string volume;  // for sections; empty: the first
   std::vector<std::string> isosurfaces;  // "VOLUME=VALUE[,COLOUR]"
-  IsosurfaceOptions drawing;             // of isosurfaces
+  DrawingOptions drawing;                // of isosurfaces
+  std::filesystem::path pass_images;     // with drawing.visible: a folder (visible.h); empty: none
   std::string statistic = "variance";
   std::string colours;  // empty: the statistic's own colour map
   std::optional<std::array<double, 2>> range;
@@ -40,8 +41,9 @@ struct Rendered {
   std::int64_t faces = 0;
   std::vector<std::string> isosurfaces;  // their names
   std::vector<std::int64_t> triangles;   // of each isosurface
+  std::vector<std::string> pass_images;  // files
   std::string engine_json;               // session/render_job.h; empty where there was nothing for the engine
-  std::vector<std::string> notices;      // stale or never computed colours
+  std::vector<std::string> notices;      // stale or never computed colours, isosurfaces that are not finished
 };
 
 // Throws kUsage for options that make no sense, kInvalid for a line that the survey does not have, kNotFound

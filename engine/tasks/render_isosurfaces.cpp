@@ -10,6 +10,7 @@
 #include "engine/session/render_job.h"
 #include "engine/tasks/job_home.h"
 #include "engine/tasks/open_volume.h"
+#include "engine/tasks/visible.h"
 #include "storage/base/error.h"
 #include "storage/base/text.h"
 
@@ -61,12 +62,17 @@ WantedIsosurface isosurface_from(const project::Project& project, const std::str
   WantedIsosurface wanted;
   wanted.volume = present_volume(project, words.substr(0, equals));
   wanted.value = *value;
-  wanted.colour = parts.size() == 2 ? colour_from(parts[1]) : kColours[number % kDefaults].colour;
+  wanted.colour = parts.size() == 2 ? colour_from(parts[1]) : isosurface_colour(number);
   wanted.name = fmt::format("{} = {:.6g}", wanted.volume.name, *value);
   return wanted;
 }
 
-// Of the volume's own index space, which begins at its origin in the survey's.
+}  // namespace
+
+render::Rgba isosurface_colour(std::size_t n) {
+  return kColours[n % kDefaults].colour;
+}
+
 render::Placement placement_of(const project::VolumeRecord& volume, const render::SceneFrame& frame) {
   const auto at = [&](double i, double j, double k) {
     return frame.scene_of(survey::IndexPoint{static_cast<double>(volume.origin[0]) + i,
@@ -85,8 +91,6 @@ render::Placement placement_of(const project::VolumeRecord& volume, const render
   return placement;
 }
 
-}  // namespace
-
 std::vector<WantedIsosurface> isosurfaces_from(const project::Project& project,
                                                const std::vector<std::string>& words) {
   std::vector<WantedIsosurface> wanted;
@@ -98,7 +102,7 @@ std::vector<WantedIsosurface> isosurfaces_from(const project::Project& project,
 DrawnIsosurfaces draw_isosurfaces(const project::Project& project,
                                   const std::vector<WantedIsosurface>& wanted,
                                   const render::SceneFrame& frame, const render::Camera& camera, int width,
-                                  int height, const IsosurfaceOptions& options, const JobContext& context) {
+                                  int height, const DrawingOptions& options, const JobContext& context) {
   const session::PrivateFolder folder(home_of_job(project));
   session::RenderJob job;
   job.width = width;
@@ -106,6 +110,8 @@ DrawnIsosurfaces draw_isosurfaces(const project::Project& project,
   job.threads = options.launch.threads > 0 ? options.launch.threads : session::default_threads();
   job.group_threshold = options.group_threshold;
   job.camera = camera;
+  job.visible = options.visible;
+  if (job.visible && options.after_passes) job.visible->pass_layers = folder.path() / "pass";
   job.layer = folder.path() / "layer";
   job.result = folder.path() / "result.json";
   for (const WantedIsosurface& each : wanted) {
@@ -119,9 +125,14 @@ DrawnIsosurfaces draw_isosurfaces(const project::Project& project,
   drawn.result_json =
       session::run_engine(options.launch, {{"render", job_file.string()}, job.result}, context);
   drawn.layer = render::SurfaceLayer::read(job.layer);
-  const nlohmann::json result = nlohmann::json::parse(drawn.result_json);
-  for (const nlohmann::json& each : result.at("isosurfaces"))
+  nlohmann::json result = nlohmann::json::parse(drawn.result_json);
+  for (nlohmann::json& each : result.at("isosurfaces")) {
     drawn.triangles.push_back(each.at("triangles").get<std::int64_t>());
+    if (job.visible) count_pixels(each);
+  }
+  if (!job.visible) return drawn;
+  drawn.result_json = result.dump();
+  if (options.after_passes) options.after_passes(*job.visible, result.at("pass_layers").get<int>());
   return drawn;
 }
 

@@ -5,6 +5,7 @@
 #include "app/footwall/commands/commands.h"
 #include "app/footwall/commands/launch_options.h"
 #include "app/footwall/commands/options.h"
+#include "app/footwall/commands/visible_options.h"
 #include "engine/tasks/render_camera.h"
 #include "engine/tasks/render_faults.h"
 #include "storage/base/log.h"
@@ -15,13 +16,40 @@ namespace {
 struct Options {
   std::string project, out, size = "1600x1000", range, depth, save_view, group_threshold;
   bool faults = false;
+  VisibleOptions visible;
   EngineOptions engine;
   tasks::RenderOptions how;
 };
 
+void add_isosurfaces(const tasks::Rendered& done, const Options& options, console::Output& output) {
+  if (done.engine_json.empty()) return;
+  const console::Json engine = console::Json::parse(done.engine_json);
+  for (std::size_t n = 0; n < done.isosurfaces.size(); ++n) {
+    console::Json each{{"name", done.isosurfaces[n]}, {"triangles", done.triangles[n]}};
+    output.text += fmt::format("\n{}: {} triangles", done.isosurfaces[n], done.triangles[n]);
+    if (options.visible.visible) {
+      const console::Json& report = engine.at("isosurfaces").at(n);
+      each.update(report);
+      output.text += "\n" + passes_in_words(report);
+    }
+    output.json["isosurfaces"].push_back(std::move(each));
+  }
+  for (const char* key : {"ranks", "seconds", "merged_pixels", "merged_bytes", "bytes_sent", "messages"})
+    output.json[key] = engine.at(key);
+  if (!options.visible.visible) return;
+  output.json["mode"] = engine.at("mode");
+  output.json["pass_images"] = done.pass_images;
+}
+
 console::Output run(Options& options, const console::Console& console) {
   if (!options.faults && options.how.sections.empty() && options.how.isosurfaces.empty()) {
     throw Error(ErrorCode::kUsage, "nothing to draw", "add --faults, --section or --isosurface");
+  }
+  options.how.drawing.visible = options.visible.choice();
+  options.how.pass_images = options.visible.pass_images;
+  if (options.visible.visible && options.how.isosurfaces.empty()) {
+    throw Error(ErrorCode::kUsage, "--visible is of isosurfaces, and there is none to draw",
+                "add --isosurface VOLUME=VALUE, or leave it out");
   }
   const bool saves = !options.save_view.empty();
   if (saves) {
@@ -47,15 +75,7 @@ console::Output run(Options& options, const console::Console& console) {
   console::Output output{
       {{"out", options.out}, {"size", {width, height}}, {"faces", done.faces}, {"notices", done.notices}},
       fmt::format("written {}: {} faces, {} x {} pixels", options.out, done.faces, width, height)};
-  for (std::size_t n = 0; n < done.isosurfaces.size(); ++n) {
-    output.json["isosurfaces"].push_back({{"name", done.isosurfaces[n]}, {"triangles", done.triangles[n]}});
-    output.text += fmt::format("\n{}: {} triangles", done.isosurfaces[n], done.triangles[n]);
-  }
-  if (!done.engine_json.empty()) {
-    const console::Json engine = console::Json::parse(done.engine_json);
-    for (const char* key : {"ranks", "seconds", "merged_pixels", "merged_bytes", "bytes_sent", "messages"})
-      output.json[key] = engine.at(key);
-  }
+  add_isosurfaces(done, options, output);
   if (saves) {
     project.save_view(
         {options.save_view, tasks::camera_words(done.view), done.view.exaggeration, std::string()});
@@ -111,6 +131,7 @@ void add_render(console::Program& program) {
       "Vertical exaggeration (default: a round one that makes the box about 0.6 as high as long)");
   command->add_option("--velocity", how.velocity,
                       "m/s, for heights in a time survey (default: 1 ms is drawn as 1 m)");
+  options->visible.add_to(*command);
   command->add_option("--depth", options->depth,
                       "Also write the depth, 0 near to 1 background, to this TIFF file");
   command->add_option("--ranks", options->engine.ranks,

@@ -5,8 +5,8 @@
 namespace footwall::isosurface::detail {
 
 March::March(const Frame& frame, const CellMasks& masks, const CaseLookup& cases, std::int64_t planes,
-             std::uint64_t* row_first, std::vector<CentreLoop>& centres)
-    : frame_(frame), masks_(masks), cases_(cases), row_first_(row_first), centres_(centres), signs_(frame) {
+             std::uint64_t* row_first, Besides& besides)
+    : frame_(frame), masks_(masks), cases_(cases), row_first_(row_first), besides_(besides), signs_(frame) {
   for (std::int64_t n = 0; n < planes + 2; ++n) planes_.emplace_back(frame);
 }
 
@@ -61,7 +61,7 @@ void March::write(const Place& place) {
       number_vertices(frame_, place.vertex + vertices + here.vertices, upper);
       write_triangles(frame_, cases_, here.cells, here.edges, upper, here.slow, place.triangle + triangles,
                       {place.triangles + triangles, here.triangles}, row_first_ + p * frame_.cell_rows,
-                      centres_, ahead_);
+                      besides_.centres, ahead_);
     }
     list_vertices(frame_, here.edges, here.slow, list_);
     write_vertices(frame_, p, list_, place.positions + vertices,
@@ -71,6 +71,15 @@ void March::write(const Place& place) {
     triangles += here.triangles;
   }
   numbered_ = run_.last;
+}
+
+void March::list_parts(const Place& place) {
+  std::uint64_t triangle = place.triangle;
+  for (std::int64_t p = run_.first; p < std::min(run_.last, frame_.cell_planes); ++p) {
+    const Plane& here = plane(p);
+    list_part_runs(frame_, cases_, here.cells, p, here.slow, triangle, besides_.part_runs);
+    triangle += here.triangles;
+  }
 }
 
 }  // namespace footwall::isosurface::detail

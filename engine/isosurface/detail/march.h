@@ -29,17 +29,24 @@ struct Place {
   Triangle* triangles = nullptr;
 };
 
+// What a thread's runs give besides what has a place of its own.
+struct Besides {
+  std::vector<CentreLoop> centres;  // not made: the last ones hang on vertices of the next run
+  std::vector<PartRun> part_runs;
+};
+
 class March {
  public:
-  // Runs are to have up to `planes` planes. row_first: as in Surface. centres: where the loops of the centre
-  // vertices are added, which are not made, since the last ones hang on vertices of the next run.
+  // Runs are to have up to `planes` planes. row_first: as in Surface.
   March(const Frame& frame, const CellMasks& masks, const CaseLookup& cases, std::int64_t planes,
-        std::uint64_t* row_first, std::vector<CentreLoop>& centres);
+        std::uint64_t* row_first, Besides& besides);
 
   // Costs less where the run follows that of the call before.
   Count find(const Run& run);
   // What was found last.
   void write(const Place& place);
+  // Where the bricks' triangles of the same are.
+  void list_parts(const Place& place);
 
  private:
   struct Plane {
@@ -58,7 +65,7 @@ class March {
   const CellMasks& masks_;
   const CaseLookup& cases_;
   std::uint64_t* row_first_;
-  std::vector<CentreLoop>& centres_;
+  Besides& besides_;
   BitPlanes signs_;
   LinesAhead ahead_;
   std::vector<Plane> planes_;  // one before the run's, and one after
