@@ -27,6 +27,9 @@ Octree paper_octree(const Field& volume, const Bricks& bricks, const survey::Ind
 struct VisiblePieces {
   std::vector<SomeTriangles> passes;  // one for each pass in which this rank got cells
   VisibleReport report;               // of all ranks, on rank 0; elsewhere it tells nothing
+  // Rank 0: processor time of the slowest rank in each pass's `extract`; ranks that share a core are no
+  // busier for it.
+  std::vector<double> busy_seconds;
 };
 
 // Collective; the same Error on all ranks: kUsage for a picture, cell or estimate cell that cannot be,

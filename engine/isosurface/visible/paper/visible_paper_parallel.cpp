@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 
 #include "engine/isosurface/visible/paper/merge_masks.h"
 #include "engine/isosurface/visible/paper/partition.h"
@@ -31,11 +32,18 @@ class Stopwatch {
   double start_;
 };
 
+double processor_seconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
 // What a rank did in a pass.
 struct Share {
   std::int64_t cells = 0;
   std::int64_t triangles = 0;
   VisiblePass::Seconds seconds;
+  double busy_seconds = 0;
 };
 
 struct ActiveCell {
@@ -147,7 +155,7 @@ Assignment assign(comm::Communicator& world, std::vector<Assignment> all) {
 }
 
 // What all ranks did, on rank 0.
-VisiblePass pass_of(comm::Communicator& world, const Share& mine) {
+VisiblePass pass_of(comm::Communicator& world, const Share& mine, double& busy_seconds) {
   comm::Bytes bytes(sizeof mine);
   std::memcpy(bytes.data(), &mine, sizeof mine);
   const std::vector<comm::Bytes> others = render::gather_to_first(world, world.size(), bytes);
@@ -159,6 +167,7 @@ VisiblePass pass_of(comm::Communicator& world, const Share& mine) {
     triangles.push_back(share.triangles);
     pass.cells += share.cells;
     pass.triangles += share.triangles;
+    busy_seconds = std::max(busy_seconds, share.busy_seconds);
     pass.seconds.visibility = std::max(pass.seconds.visibility, share.seconds.visibility);
     pass.seconds.partition = std::max(pass.seconds.partition, share.seconds.partition);
     pass.seconds.assign = std::max(pass.seconds.assign, share.seconds.assign);
@@ -254,12 +263,14 @@ void extract_visible_paper(comm::Communicator& world, const Field& volume, const
 
     // 4. Triangles, and what they cover.
     world.collectively([&] {
-      const Stopwatch time(mine.seconds.extract);
       if (assignment.boxes.empty()) return;
+      const Stopwatch time(mine.seconds.extract);
+      const double busy = processor_seconds();
       into.passes.push_back(cells->extract(assignment.boxes));
       cover.draw(into.passes.back(), *covered);
       mine.cells = static_cast<std::int64_t>(assignment.boxes.size());
       mine.triangles = static_cast<std::int64_t>(into.passes.back().surface.triangles.size());
+      mine.busy_seconds = processor_seconds() - busy;
     });
 
     // 5. The masks of all ranks to rank 0.
@@ -267,8 +278,10 @@ void extract_visible_paper(comm::Communicator& world, const Field& volume, const
       const Stopwatch time(mine.seconds.composite);
       merge_masks(world, *covered);
     }
-    const VisiblePass done = pass_of(world, mine);
+    double busy = 0;
+    const VisiblePass done = pass_of(world, mine, busy);
     if (world.rank() == 0) {
+      into.busy_seconds.push_back(busy);
       into.report.passes.push_back(done);
       host->end_pass(*covered);
     }
