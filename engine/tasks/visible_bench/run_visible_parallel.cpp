@@ -52,9 +52,9 @@ class Bench {
                     "use paper");
       }
       const formats::raw::RawFile file(bench.raw, bench.size);
-      values_.resize(static_cast<std::size_t>(bench.size[0] * bench.size[1] * bench.size[2]));
-      file.read_block({{0, 0, 0}, bench.size}, values_);
-      volume_ = {values_, bench.size, {0, 0, 0}, bench.size};
+      values_.resize_uninitialised(static_cast<std::size_t>(bench.size[0] * bench.size[1] * bench.size[2]));
+      file.read_block({{0, 0, 0}, bench.size}, values_.all());
+      volume_ = {values_.all(), bench.size, {0, 0, 0}, bench.size};
       ranges_ = brick_ranges(volume_, bench.threads);
       cell_ = bench.cell;
       const survey::Index chosen = default_paper_cell(bench.size);
@@ -98,13 +98,15 @@ class Bench {
   VisibleRequest request_of(const VisibleView& view) const;
   Whole whole_of(const VisibleRequest& request) const;
   Json row_of(std::size_t view, VisibleRequest request, const survey::Index& estimate, const Whole& whole);
+  // Over all passes.
+  double load_difference_of(const VisiblePieces& pieces) const;
   // Draws what was found. On rank 0 adds to the row how the picture differs from that of the whole surface.
   void compare(const VisiblePieces& pieces, const VisibleRequest& request, const Whole& whole, Json& row);
 
   comm::Communicator world_;
   const VisibleBench& bench_;
   const JobContext& job_;
-  std::vector<float> values_;
+  PageVector<float> values_;
   Field volume_;
   BrickRanges ranges_;
   survey::Index cell_{0, 0, 0};
@@ -142,8 +144,9 @@ Whole Bench::whole_of(const VisibleRequest& request) const {
   std::vector<double> draws;
   render::SurfaceFrame frame;
   render::VisibilityBuffer window(request.width, request.height);
-  for (int n = 0; n < bench_.repeats; ++n) {
-    SomeTriangles all;
+  SomeTriangles all;
+  // The first one pays for new memory.
+  for (int n = 0; n <= bench_.repeats; ++n) {
     ExtractOptions options;
     options.threads = request.threads;
     options.bricks = &request.bricks;
@@ -155,8 +158,8 @@ Whole Bench::whole_of(const VisibleRequest& request) const {
     window.clear();
     frame.project(std::span(&surface, 1), request.camera, request.width, request.height, request.threads);
     if (!surface.triangles.empty()) frame.rasterize(window, request.threads);
-    extracts.push_back(extracted - start);
-    draws.push_back(omp_get_wtime() - extracted);
+    if (n > 0) extracts.push_back(extracted - start);
+    if (n > 0) draws.push_back(omp_get_wtime() - extracted);
     whole.triangles = static_cast<std::int64_t>(surface.triangles.size());
   }
   std::set<render::PrimitiveId> seen;
@@ -207,47 +210,49 @@ void Bench::compare(const VisiblePieces& pieces, const VisibleRequest& request, 
   });
 }
 
+double Bench::load_difference_of(const VisiblePieces& pieces) const {
+  const std::int64_t cells = pieces.passes.empty() ? 0 : 1;
+  std::int64_t triangles = 0;
+  for (const SomeTriangles& some : pieces.passes)
+    triangles += static_cast<std::int64_t>(some.surface.triangles.size());
+  std::vector<std::int64_t> cells_of_ranks(static_cast<std::size_t>(world_.size()));
+  std::vector<std::int64_t> triangles_of_ranks(cells_of_ranks.size());
+  comm::check(MPI_Allgather(&cells, 1, MPI_INT64_T, cells_of_ranks.data(), 1, MPI_INT64_T, world_.get()),
+              "MPI_Allgather");
+  comm::check(
+      MPI_Allgather(&triangles, 1, MPI_INT64_T, triangles_of_ranks.data(), 1, MPI_INT64_T, world_.get()),
+      "MPI_Allgather");
+  return load_difference(cells_of_ranks, triangles_of_ranks);
+}
+
 Json Bench::row_of(std::size_t view, VisibleRequest request, const survey::Index& estimate,
                    const Whole& whole) {
   request.estimate_cell = estimate;
   Json row{{"view", view}, {"estimate_cell", estimate}};
   struct Run {
     double seconds = 0;
-    VisiblePieces pieces;
+    VisibleReport report;
+    std::vector<double> busy_seconds;
   };
   std::vector<Run> runs;
+  VisiblePieces pieces;
   for (int n = 0; n <= bench_.repeats; ++n) {
-    Run run;
     comm::check(MPI_Barrier(world_.get()), "MPI_Barrier");
     const double start = omp_get_wtime();
     extract_visible_paper(world_, volume_, octree_ ? &*octree_ : nullptr, request, job_.part(1, 1), {},
-                          run.pieces);
-    run.seconds = world_.maximum(omp_get_wtime() - start);
+                          pieces);
+    const double seconds = world_.maximum(omp_get_wtime() - start);
     // The first one, which pays for new memory, is drawn.
-    if (n == 0) {
-      compare(run.pieces, request, whole, row);
-    } else {
-      run.pieces.passes.clear();
-      runs.push_back(std::move(run));
+    if (n > 0) {
+      runs.push_back({seconds, pieces.report, pieces.busy_seconds});
+      continue;
     }
-    if (n > 0) continue;
-    std::int64_t cells = 0;
-    std::int64_t triangles = 0;
-    for (const SomeTriangles& some : run.pieces.passes)
-      triangles += static_cast<std::int64_t>(some.surface.triangles.size());
-    cells = run.pieces.passes.empty() ? 0 : 1;
-    std::vector<std::int64_t> cells_of_ranks(static_cast<std::size_t>(world_.size()));
-    std::vector<std::int64_t> triangles_of_ranks(static_cast<std::size_t>(world_.size()));
-    comm::check(MPI_Allgather(&cells, 1, MPI_INT64_T, cells_of_ranks.data(), 1, MPI_INT64_T, world_.get()),
-                "MPI_Allgather");
-    comm::check(
-        MPI_Allgather(&triangles, 1, MPI_INT64_T, triangles_of_ranks.data(), 1, MPI_INT64_T, world_.get()),
-        "MPI_Allgather");
-    row["load_difference"] = load_difference(cells_of_ranks, triangles_of_ranks);
+    compare(pieces, request, whole, row);
+    row["load_difference"] = load_difference_of(pieces);
   }
   if (world_.rank() != 0) return row;
   std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.seconds < b.seconds; });
-  const VisiblePieces& middle = runs[runs.size() / 2].pieces;
+  const Run& middle = runs[runs.size() / 2];
   Json seconds = Json::array();
   for (const Run& run : runs) seconds.push_back(run.seconds);
   Json passes = Json::array();
@@ -271,7 +276,7 @@ Json Bench::row_of(std::size_t view, VisibleRequest request, const survey::Index
   }
   row["triangles"] = middle.report.triangles;
   row["finished"] = middle.report.finished;
-  row["median_seconds"] = runs[runs.size() / 2].seconds;
+  row["median_seconds"] = middle.seconds;
   row["busy_seconds"] = busy;
   row["seconds"] = std::move(seconds);
   row["passes"] = std::move(passes);

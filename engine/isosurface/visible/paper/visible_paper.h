@@ -37,7 +37,7 @@ struct VisiblePieces {
 // every rank. octree: of request.cell on rank 0, nullptr elsewhere. after_pass (may be empty): called on
 // every rank when a pass is done, with what there is so far; collective calls are allowed in it, and its time
 // is not counted. The number of triangles of each pass does not depend on the number of ranks, nor do the
-// passes.
+// passes. `into` keeps its room.
 void extract_visible_paper(comm::Communicator& world, const Field& volume, const Octree* octree,
                            const VisibleRequest& request, const JobContext& job,
                            const std::function<void(const VisiblePieces&)>& after_pass, VisiblePieces& into);

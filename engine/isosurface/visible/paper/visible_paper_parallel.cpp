@@ -146,12 +146,31 @@ Assignment assignment_from(const comm::Bytes& bytes) {
   return assignment;
 }
 
-// From rank 0 to each.
-Assignment assign(comm::Communicator& world, std::vector<Assignment> all) {
-  if (world.rank() != 0) return assignment_from(render::take_from(world, 0));
-  for (int rank = 1; rank < world.size(); ++rank)
-    render::give_to(world, rank, bytes_of(all[static_cast<std::size_t>(rank)]));
-  return std::move(all.front());
+// From rank 0 to each: sizes, then boxes.
+Assignment assign(comm::Communicator& world, const std::vector<Assignment>& all) {
+  std::vector<comm::Bytes> bytes;
+  std::vector<std::uint64_t> sizes;
+  for (const Assignment& each : all) {
+    bytes.push_back(bytes_of(each));
+    sizes.push_back(bytes.back().size());
+  }
+  std::uint64_t size = 0;
+  std::vector<comm::KnownOutgoing> outgoing;
+  std::vector<comm::KnownIncoming> incoming;
+  if (world.rank() != 0) incoming.push_back({0, std::as_writable_bytes(std::span(&size, 1))});
+  for (int rank = 1; rank < static_cast<int>(all.size()); ++rank) {
+    const auto n = static_cast<std::size_t>(rank);
+    outgoing.push_back({rank, std::as_bytes(std::span(sizes).subspan(n, 1)), sizeof size});
+  }
+  world.exchange_known(outgoing, incoming);
+  comm::Bytes mine(size);
+  for (comm::KnownOutgoing& message : outgoing) {
+    message.bytes = bytes[static_cast<std::size_t>(message.rank)];
+    message.most = message.bytes.size();
+  }
+  for (comm::KnownIncoming& message : incoming) message.room = mine;
+  world.exchange_known(outgoing, incoming);
+  return world.rank() == 0 ? all.front() : assignment_from(mine);
 }
 
 // What all ranks did, on rank 0.
@@ -206,6 +225,7 @@ class Cover {
 void extract_visible_paper(comm::Communicator& world, const Field& volume, const Octree* octree,
                            const VisibleRequest& request, const JobContext& job,
                            const std::function<void(const VisiblePieces&)>& after_pass, VisiblePieces& into) {
+  std::vector<SomeTriangles> room = std::move(into.passes);
   into = {};
   const double start = omp_get_wtime();
   double aside = 0;  // in after_pass
@@ -257,7 +277,7 @@ void extract_visible_paper(comm::Communicator& world, const Field& volume, const
     Assignment assignment;
     {
       const Stopwatch time(mine.seconds.assign);
-      assignment = assign(world, std::move(all));
+      assignment = assign(world, all);
     }
     if (assignment.ends) break;
 
@@ -266,7 +286,9 @@ void extract_visible_paper(comm::Communicator& world, const Field& volume, const
       if (assignment.boxes.empty()) return;
       const Stopwatch time(mine.seconds.extract);
       const double busy = processor_seconds();
-      into.passes.push_back(cells->extract(assignment.boxes));
+      const std::size_t at = into.passes.size();
+      into.passes.push_back(at < room.size() ? std::move(room[at]) : SomeTriangles());
+      cells->extract(assignment.boxes, into.passes.back());
       cover.draw(into.passes.back(), *covered);
       mine.cells = static_cast<std::int64_t>(assignment.boxes.size());
       mine.triangles = static_cast<std::int64_t>(into.passes.back().surface.triangles.size());
