@@ -1,5 +1,6 @@
 // Triangles into a coverage mask. Eight pixels of a row at once; coverage is decided on the same integers as
-// in rasterizer.cpp. Tiles that are full already are passed by.
+// in rasterizer.cpp. Where nothing is left to be
+// covered, it is not decided at all.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/render/cover_triangles.cpp"
 #include <hwy/foreach_target.h>
@@ -18,7 +19,6 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int kTile = CoverageMask::kTile;
-constexpr std::uint64_t kFull = ~std::uint64_t{0};
 constexpr std::int32_t kHalf = kSubPixels / 2;
 // Triangles up to so many pixels wide and high take 32-bit edge functions, also in the tiles' other pixels:
 // |E| <= 2 * (71 * 256)^2 < 2^30.
@@ -57,21 +57,29 @@ struct Pixels {
   std::int32_t y1;
 };
 
-// Of one row of a tile, from the values at its first pixel.
-HWY_INLINE std::uint64_t row_bits(const Edge<std::int32_t>& ea, const Edge<std::int32_t>& eb,
-                                  const Edge<std::int32_t>& ec, std::int32_t a, std::int32_t b,
-                                  std::int32_t c) {
+// The bits of rows y0 to y1 of a tile; the edges begin at its first pixel in row y0.
+HWY_INLINE std::uint64_t tile_bits(const Edge<std::int32_t>& ea, const Edge<std::int32_t>& eb,
+                                   const Edge<std::int32_t>& ec, std::int32_t y0, std::int32_t y1) {
   const hn::CappedTag<std::int32_t, kTile> d;
   const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
+  const auto none = hn::Set(d, -1);
   std::uint64_t bits = 0;
   for (std::int32_t x = 0; x < kTile; x += lanes) {
     const auto along = hn::Iota(d, x);
-    const auto value = [&](std::int32_t at, std::int32_t right)
-                           HWY_ATTR { return hn::Add(hn::Set(d, at), hn::Mul(along, hn::Set(d, right))); };
-    const auto outside = hn::Or(hn::Or(value(a, ea.right), value(b, eb.right)), value(c, ec.right));
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, hn::Gt(outside, hn::Set(d, -1)), bytes);
-    bits |= static_cast<std::uint64_t>(bytes[0]) << static_cast<unsigned>(x);
+    auto a = hn::Add(hn::Set(d, ea.at), hn::Mul(along, hn::Set(d, ea.right)));
+    auto b = hn::Add(hn::Set(d, eb.at), hn::Mul(along, hn::Set(d, eb.right)));
+    auto c = hn::Add(hn::Set(d, ec.at), hn::Mul(along, hn::Set(d, ec.right)));
+    const auto down_a = hn::Set(d, ea.down);
+    const auto down_b = hn::Set(d, eb.down);
+    const auto down_c = hn::Set(d, ec.down);
+    for (std::int32_t y = y0; y <= y1; ++y) {
+      std::uint8_t bytes[8] = {};
+      hn::StoreMaskBits(d, hn::Gt(hn::Or(hn::Or(a, b), c), none), bytes);
+      bits |= static_cast<std::uint64_t>(bytes[0]) << static_cast<unsigned>(kTile * (y % kTile) + x);
+      a = hn::Add(a, down_a);
+      b = hn::Add(b, down_b);
+      c = hn::Add(c, down_c);
+    }
   }
   return bits;
 }
@@ -82,17 +90,13 @@ void cover_small(const ScreenVertex& a, const ScreenVertex& b, const ScreenVerte
     const std::int32_t y0 = std::max(box.y0, row * kTile);
     const std::int32_t y1 = std::min(box.y1, row * kTile + kTile - 1);
     for (std::int32_t column = box.x0 / kTile; column <= box.x1 / kTile; ++column) {
-      if (into.tile_at(column, row) == kFull) continue;
+      const PixelRect part{std::max(box.x0, column * kTile), y0,
+                           std::min(box.x1, column * kTile + kTile - 1) + 1, y1 + 1};
+      if ((CoverageMask::bits_in_tile(part) & ~into.tile_at(column, row)) == 0) continue;
       const Edge<std::int32_t> ea(b, c, column * kTile, y0);
       const Edge<std::int32_t> eb(c, a, column * kTile, y0);
       const Edge<std::int32_t> ec(a, b, column * kTile, y0);
-      std::uint64_t bits = 0;
-      for (std::int32_t y = y0; y <= y1; ++y) {
-        const std::int32_t n = y - y0;
-        bits |= row_bits(ea, eb, ec, ea.at + n * ea.down, eb.at + n * eb.down, ec.at + n * ec.down)
-                << static_cast<unsigned>(kTile * (y % kTile));
-      }
-      into.add(column, row, bits);
+      into.add(column, row, tile_bits(ea, eb, ec, y0, y1));
     }
   }
 }

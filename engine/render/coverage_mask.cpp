@@ -14,11 +14,7 @@ static_assert(CoverageMask::kTile == 1 << kShift);
 
 // The bits of columns [x0, x1) in rows [y0, y1) of a tile.
 constexpr std::uint64_t bits_of(int x0, int y0, int x1, int y1) {
-  const std::uint64_t row =
-      (std::uint64_t{1} << static_cast<unsigned>(x1)) - (std::uint64_t{1} << static_cast<unsigned>(x0));
-  const std::uint64_t rows =
-      y1 - y0 == CoverageMask::kTile ? kFull : (std::uint64_t{1} << static_cast<unsigned>(8 * (y1 - y0))) - 1;
-  return (0x0101010101010101U * row) & (rows << static_cast<unsigned>(8 * y0));
+  return CoverageMask::bits_in_tile({x0, y0, x1, y1});
 }
 
 constexpr int tiles_for(int size) {
