@@ -122,15 +122,6 @@ void CoverageMask::merge(int first, std::span<const std::uint64_t> words) {
     add(static_cast<int>(n % columns), first + static_cast<int>(n / columns), words[n]);
 }
 
-void CoverageMask::add(int column, int row, std::uint64_t bits) {
-  Level& level = levels_.front();
-  std::uint64_t& word = level.words[static_cast<std::size_t>(row) * static_cast<std::size_t>(level.columns) +
-                                    static_cast<std::size_t>(column)];
-  if ((bits & ~word) == 0) return;
-  word |= bits;
-  if (word == kFull) tell_full(column, row);
-}
-
 void CoverageMask::tell_full(int column, int row) {
   for (std::size_t n = 1; n < levels_.size(); ++n) {
     Level& level = levels_[n];

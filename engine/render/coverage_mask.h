@@ -63,7 +63,15 @@ class CoverageMask {
     return level.words[static_cast<std::size_t>(row) * static_cast<std::size_t>(level.columns) +
                        static_cast<std::size_t>(column)];
   }
-  void add(int column, int row, std::uint64_t bits);
+  void add(int column, int row, std::uint64_t bits) {
+    Level& level = levels_.front();
+    std::uint64_t& word =
+        level.words[static_cast<std::size_t>(row) * static_cast<std::size_t>(level.columns) +
+                    static_cast<std::size_t>(column)];
+    if ((bits & ~word) == 0) return;
+    word |= bits;
+    if (word == ~std::uint64_t{0}) tell_full(column, row);
+  }
 
  private:
   struct Level {
