@@ -79,8 +79,9 @@ std::string times(const Json& runs, std::size_t view) {
   text += fmt::format(
       "whole: extracted in {:.2f} ms and drawn in {:.2f} ms by one rank; divided by ranks as if nothing were "
       "lost\n"
-      "own cores: with processor time in `extract`, as if every rank had a core; speed-up and efficiency are "
-      "of that\n",
+      "own cores: processor time of rank 0's decisions and of the slowest rank's triangles, messages left "
+      "out;\n"
+      "speed-up and efficiency are of that\n",
       kMilli * extraction, kMilli * whole.at("draw_seconds").get<double>());
   return text;
 }
@@ -96,8 +97,7 @@ std::string phases(const Json& runs, std::size_t view) {
     for (const std::string phase : kPhases) {
       double seconds = 0;
       for (const Json& pass : row.at("passes"))
-        seconds +=
-            (phase == "extract" ? pass.at("busy_seconds") : pass.at("seconds").at(phase)).get<double>();
+        seconds += pass.at(phase == "extract" ? "busy_seconds" : "seconds").at(phase).get<double>();
       text += fmt::format(" {:>10.2f}", kMilli * seconds);
     }
     text += "\n";

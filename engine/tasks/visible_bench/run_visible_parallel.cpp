@@ -232,7 +232,7 @@ Json Bench::row_of(std::size_t view, VisibleRequest request, const survey::Index
   struct Run {
     double seconds = 0;
     VisibleReport report;
-    std::vector<double> busy_seconds;
+    std::vector<VisiblePieces::Busy> busy_seconds;
   };
   std::vector<Run> runs;
   VisiblePieces pieces;
@@ -260,7 +260,8 @@ Json Bench::row_of(std::size_t view, VisibleRequest request, const survey::Index
   for (std::size_t n = 0; n < middle.report.passes.size(); ++n) {
     const VisiblePass& pass = middle.report.passes[n];
     const VisiblePass::Seconds& s = pass.seconds;
-    busy += s.visibility + s.partition + s.assign + middle.busy_seconds[n] + s.composite;
+    const VisiblePieces::Busy& of_pass = middle.busy_seconds[n];
+    busy += of_pass.host + of_pass.extract;
     passes.push_back({{"cells", pass.cells},
                       {"triangles", pass.triangles},
                       {"load_difference", pass.load_difference},
@@ -272,7 +273,7 @@ Json Bench::row_of(std::size_t view, VisibleRequest request, const survey::Index
                         {"assign", s.assign},
                         {"extract", s.extract},
                         {"composite", s.composite}}},
-                      {"busy_seconds", middle.busy_seconds[n]}});
+                      {"busy_seconds", {{"host", of_pass.host}, {"extract", of_pass.extract}}}});
   }
   row["triangles"] = middle.report.triangles;
   row["finished"] = middle.report.finished;

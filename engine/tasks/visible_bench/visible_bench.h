@@ -37,11 +37,12 @@ struct VisibleBench {
   // triangles_seen, extract_seconds, draw_seconds}], rows[{view, estimate_cell, triangles, finished,
   // seconds[], median_seconds, busy_seconds, draw_seconds, load_difference, pixels, pixels_farther,
   // pixels_lost, passes[{cells, triangles, load_difference, uncovered_pixels, percent, seconds{visibility,
-  // partition, assign, extract, composite}, busy_seconds}]}]}. `whole`: the whole surface, extracted and
-  // drawn by rank 0 alone. seconds: from the isovalue until the last pass is done, the slowest rank's.
-  // busy_seconds: the sum over phases and passes with the slowest rank's processor time in `extract`: what
-  // ranks that share cores would need with a core each. pixels_farther: that show something behind what is
-  // seen of the whole surface; pixels_lost: that show nothing where the whole surface is.
+  // partition, assign, extract, composite}, busy_seconds{host, extract}}]}]}. `whole`: the whole surface,
+  // extracted and drawn by rank 0 alone. seconds: from the isovalue until the last pass is done, the slowest
+  // rank's. busy_seconds: processor time, of rank 0 in visibility and partition (host) and of the slowest
+  // rank in `extract`; of a row, all passes: what ranks that share cores would need with a core each,
+  // messages left out. pixels_farther: that show something behind what is seen of the whole surface;
+  // pixels_lost: that show nothing where the whole surface is.
   std::filesystem::path result;
 };
 

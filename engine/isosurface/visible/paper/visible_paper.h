@@ -27,9 +27,12 @@ Octree paper_octree(const Field& volume, const Bricks& bricks, const survey::Ind
 struct VisiblePieces {
   std::vector<SomeTriangles> passes;  // one for each pass in which this rank got cells
   VisibleReport report;               // of all ranks, on rank 0; elsewhere it tells nothing
-  // Rank 0: processor time of the slowest rank in each pass's `extract`; ranks that share a core are no
-  // busier for it.
-  std::vector<double> busy_seconds;
+  // Rank 0: processor time of each pass, which is no more where ranks share a core.
+  struct Busy {
+    double host = 0;     // rank 0's, in visibility and partition
+    double extract = 0;  // the slowest rank's
+  };
+  std::vector<Busy> busy_seconds;
 };
 
 // Collective; the same Error on all ranks: kUsage for a picture, cell or estimate cell that cannot be,
