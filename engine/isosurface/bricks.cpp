@@ -53,7 +53,7 @@ std::vector<Run> runs_of(const Frame& frame, const CellMasks& masks, int threads
 class March {
  public:
   March(const Frame& frame, const CellMasks& masks, const CaseLookup& cases, const ExtractOptions& options,
-        const Run& run, Surface& into, std::uint64_t* row_first)
+        const Run& run, Surface& into, std::uint64_t* row_first, std::vector<PartRun>* part_runs)
       : frame_(frame),
         masks_(masks),
         cases_(cases),
@@ -61,6 +61,7 @@ class March {
         run_(run),
         into_(into),
         row_first_(row_first),
+        part_runs_(part_runs),
         signs_(frame),
         before_(frame),
         active_(frame),
@@ -125,6 +126,7 @@ class March {
     into_.triangles.grow(first + triangles_);
     write_triangles(frame_, cases_, before_, edges_, next_edges_, slow_, first,
                     into_.triangles.all().subspan(first), row_first_ + edges_.p * frame_.cell_rows, centres_);
+    if (part_runs_ != nullptr) list_part_runs(frame_, cases_, before_, edges_.p, slow_, first, *part_runs_);
   }
 
   const Frame& frame_;
@@ -134,6 +136,7 @@ class March {
   Run run_;
   Surface& into_;
   std::uint64_t* row_first_;
+  std::vector<PartRun>* part_runs_;
   BitPlanes signs_;
   ActiveCells before_;
   ActiveCells active_;
@@ -151,6 +154,7 @@ class March {
 struct Part {
   Surface surface;  // not of the first run, whose is the whole's beginning
   std::vector<CentreLoop> centres;
+  std::vector<PartRun> part_runs;
   std::uint64_t first_vertex = 0;
   std::uint64_t first_triangle = 0;
 };
@@ -229,12 +233,13 @@ void make_empty(Surface& into) {
 void extract_bricks(const Field& field, float isovalue, const ExtractOptions& options, Surface& into) {
   voxelize::apply_forced_simd();
   into.cells = options.cells.value_or(cells_of(field));
+  if (options.part_runs != nullptr) options.part_runs->clear();
   if (into.cells.empty()) {
     make_empty(into);
     return;
   }
   const Frame frame(field, isovalue, into.cells);
-  const CellMasks masks(frame, options.bricks);
+  const CellMasks masks(frame, options.bricks, options.parts);
   const CaseLookup cases;
   const std::vector<Run> runs = runs_of(frame, masks, options.threads);
   std::vector<Part> parts(runs.size());
@@ -242,9 +247,18 @@ void extract_bricks(const Field& field, float isovalue, const ExtractOptions& op
   for_each_in_parallel(static_cast<std::int64_t>(runs.size()), options.threads, [&](std::int64_t n, int) {
     const auto run = static_cast<std::size_t>(n);
     Surface& made = run == 0 ? into : parts[run].surface;
-    parts[run].centres = March(frame, masks, cases, options, runs[run], made, into.row_first.data()).run();
+    std::vector<PartRun>* const listed = options.part_runs != nullptr ? &parts[run].part_runs : nullptr;
+    parts[run].centres =
+        March(frame, masks, cases, options, runs[run], made, into.row_first.data(), listed).run();
   });
   join(frame, runs, options, parts, into);
+  if (options.part_runs == nullptr) return;
+  for (const Part& part : parts) {
+    for (PartRun run : part.part_runs) {
+      run.first_triangle += part.first_triangle;
+      options.part_runs->push_back(run);
+    }
+  }
 }
 
 }  // namespace footwall::isosurface

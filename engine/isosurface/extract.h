@@ -8,6 +8,7 @@
 #pragma once
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "engine/isosurface/field.h"
 #include "engine/isosurface/surface.h"
@@ -23,12 +24,32 @@ struct Bricks {
   std::span<const std::uint8_t> has_null;
 };
 
+// Which parts of bricks are wanted, one word per brick of Bricks: bit 16 a + 4 b + c stands for the 2 x 2 x 2
+// cells of the brick that begin at its cell (2 a, 2 b, 2 c).
+using BrickParts = std::uint64_t;
+inline constexpr BrickParts kWholeBrick = ~BrickParts{0};
+
+// The triangles of one part of a brick in one row (i, j) of cells: those from `first_triangle` up to the next
+// run's.
+struct PartRun {
+  std::uint64_t first_triangle = 0;
+  std::int64_t i = 0;  // of the volume's cells
+  std::int64_t j = 0;
+  std::int64_t part = 0;  // along samples, from the volume's first on: cells 2 part and 2 part + 1
+};
+
 struct ExtractOptions {
   bool normals = true;
   bool keys = false;
   int threads = 1;                   // OpenMP
   std::optional<survey::Box> cells;  // as the volume counts; none: all of the field
   const Bricks* bricks = nullptr;    // skips what the isovalue cannot cross; samples there are not read
+  // With bricks: makes the triangles of these parts alone, with the vertices, normals and order that they
+  // have in the whole surface. None: all parts.
+  std::span<const BrickParts> parts;
+  // With bricks: is told where each part's triangles stand, in their order; runs without triangles are left
+  // out.
+  std::vector<PartRun>* part_runs = nullptr;
 };
 
 // Throws Error kInvalid for a field whose sizes do not fit or an isovalue that is not finite, kMemory,

@@ -34,6 +34,27 @@ std::array<double, 3> weights_at(const Vec4& a, const Vec4& b, const Vec4& c, do
   return {edge(b, c), edge(c, a), edge(a, b)};
 }
 
+// Each of the stretches ends where it says, and ascends; neighbours are merged until there is one.
+void merge_stretches(std::vector<PrimitiveTable::Entry>& entries, std::vector<std::size_t> ends) {
+  const auto at = [&](std::size_t n) { return entries.begin() + static_cast<std::ptrdiff_t>(n); };
+  while (ends.size() > 1) {
+    std::vector<std::size_t> fewer;
+    std::size_t begin = 0;
+    for (std::size_t n = 0; n < ends.size(); n += 2) {
+      const std::size_t last = std::min(n + 1, ends.size() - 1);
+      if (last > n) {
+        std::inplace_merge(at(begin), at(ends[n]), at(ends[last]),
+                           [](const PrimitiveTable::Entry& a, const PrimitiveTable::Entry& b) {
+                             return a.first_id < b.first_id;
+                           });
+      }
+      begin = ends[last];
+      fewer.push_back(begin);
+    }
+    ends = std::move(fewer);
+  }
+}
+
 }  // namespace
 
 void PrimitiveTable::assign(std::span<const LitSurface> surfaces) {
@@ -43,13 +64,13 @@ void PrimitiveTable::assign(std::span<const LitSurface> surfaces) {
   shift_ = 31;
   std::size_t triangles = 0;
   PrimitiveId highest = 0;
-  bool sorted = true;
+  std::vector<std::size_t> sorted;  // where stretches of ascending numbers end
   for (std::uint32_t n = 0; n < surfaces.size(); ++n) {
     const LitSurface& surface = surfaces[n];
     if (surface.triangles.empty()) continue;
     triangles += surface.triangles.size();
     for (const IdRun& run : surface.runs) {
-      sorted = sorted && (entries_.empty() || entries_.back().first_id <= run.first_id);
+      if (!entries_.empty() && entries_.back().first_id > run.first_id) sorted.push_back(entries_.size());
       entries_.push_back({run.first_id, n, run.first_triangle});
     }
     const IdRun& last = surface.runs.back();
@@ -57,10 +78,8 @@ void PrimitiveTable::assign(std::span<const LitSurface> surfaces) {
                                                                          last.first_triangle));
   }
   if (entries_.empty()) return;
-  if (!sorted) {
-    std::stable_sort(entries_.begin(), entries_.end(),
-                     [](const Entry& a, const Entry& b) { return a.first_id < b.first_id; });
-  }
+  sorted.push_back(entries_.size());
+  merge_stretches(entries_, std::move(sorted));
   lowest_ = entries_.front().first_id;
   // About as many buckets as runs, so that few steps lead from a bucket to the run.
   const std::uint64_t numbers = std::uint64_t{highest} - lowest_ + 1;
@@ -77,30 +96,46 @@ void PrimitiveTable::assign(std::span<const LitSurface> surfaces) {
 
 void SurfaceFrame::project(std::span<const LitSurface> surfaces, const Camera& camera, int width, int height,
                            int threads) {
-  surfaces_.assign(surfaces.begin(), surfaces.end());
+  begin(camera, width, height);
+  for (const LitSurface& surface : surfaces) add(surface, threads);
+  number();
+}
+
+void SurfaceFrame::begin(const Camera& camera, int width, int height) {
+  surfaces_.clear();
+  camera_ = camera;
   width_ = width;
   height_ = height;
+}
+
+std::size_t SurfaceFrame::add(const LitSurface& surface, int threads) {
+  const std::size_t n = surfaces_.size();
+  surfaces_.push_back(surface);
   if (projected_.size() < surfaces_.size()) projected_.resize(surfaces_.size());
-  for (std::size_t n = 0; n < surfaces_.size(); ++n) {
-    const std::span<const Vec3f> positions = surfaces_[n].positions;
-    Projected& to = projected_[n];
-    if (to.room < positions.size()) {
-      to.vertices.reset();
-      to.vertices = std::make_unique_for_overwrite<ScreenVertex[]>(positions.size());
-      to.room = positions.size();
-    }
-    to.to_clip = surfaces_[n].placement.then(camera.view_projection);
-    to.to_view = normals_to_view(surfaces_[n].placement, camera);
-    to.mirrors = surfaces_[n].placement.mirrors();
-    const std::span<ScreenVertex> vertices(to.vertices.get(), positions.size());
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (std::size_t begin = 0; begin < positions.size(); begin += kVerticesAtOnce) {
-      const std::size_t count = std::min(kVerticesAtOnce, positions.size() - begin);
-      render::project(to.to_clip, positions.subspan(begin, count), width, height,
-                      vertices.subspan(begin, count));
-    }
+  const std::span<const Vec3f> positions = surface.positions;
+  Projected& to = projected_[n];
+  if (to.room < positions.size()) {
+    to.vertices.reset();
+    to.vertices = std::make_unique_for_overwrite<ScreenVertex[]>(positions.size());
+    to.room = positions.size();
   }
-  table_.assign(surfaces_);
+  to.to_clip = surface.placement.then(camera_.view_projection);
+  to.to_view = normals_to_view(surface.placement, camera_);
+  to.mirrors = surface.placement.mirrors();
+  const std::span<ScreenVertex> vertices(to.vertices.get(), positions.size());
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+  for (std::size_t first = 0; first < positions.size(); first += kVerticesAtOnce) {
+    const std::size_t count = std::min(kVerticesAtOnce, positions.size() - first);
+    render::project(to.to_clip, positions.subspan(first, count), width_, height_,
+                    vertices.subspan(first, count));
+  }
+  return n;
+}
+
+void SurfaceFrame::keep(std::size_t surface, std::span<const TriangleIndices> triangles,
+                        std::span<const IdRun> runs) {
+  surfaces_[surface].triangles = triangles;
+  surfaces_[surface].runs = runs;
 }
 
 std::size_t SurfaceFrame::triangles() const {
@@ -109,13 +144,13 @@ std::size_t SurfaceFrame::triangles() const {
   return all;
 }
 
-void SurfaceFrame::rasterize(VisibilityBuffer& window, int threads) const {
+void SurfaceFrame::rasterize(VisibilityBuffer& window, int threads, std::size_t first) const {
   struct Part {
     std::size_t surface;
     TriangleRange range;
   };
   std::vector<Part> parts;
-  for (std::size_t n = 0; n < surfaces_.size(); ++n) {
+  for (std::size_t n = first; n < surfaces_.size(); ++n) {
     const std::size_t count = surfaces_[n].triangles.size();
     for (std::size_t begin = 0; begin < count; begin += kTrianglesAtOnce)
       parts.push_back({n, {begin, std::min(begin + kTrianglesAtOnce, count)}});
@@ -180,6 +215,7 @@ void SurfaceFrame::shade_rows(const VisibilityBuffer& window, int begin, int end
       const PrimitiveId id = primitive_of(visibles[x]);
       to[x] = 0;
       if (id == kNoPrimitive) continue;
+      if (x + kAhead < visibles.size()) table_.fetch(primitive_of(visibles[x + kAhead]));
       const PrimitiveTable::Entry& entry = table_.entry_of(id);
       seen.push_back(
           {entry.surface, static_cast<std::int32_t>(x), entry.first_triangle + (id - entry.first_id)});

@@ -25,6 +25,14 @@ void VisibilityBuffer::clear() {
   std::fill(pixels_.begin(), pixels_.end(), kBackground);
 }
 
+void VisibilityBuffer::clear(int begin, int end, int first, int last) {
+  for (int y = first; y < last; ++y) {
+    const std::span<Visible> columns =
+        row(y).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+    std::fill(columns.begin(), columns.end(), kBackground);
+  }
+}
+
 void VisibilityBuffer::merge(const VisibilityBuffer& other) {
   require(width_ == other.width_ && height_ == other.height_ && first_row_ == other.first_row_ &&
               rows_ == other.rows_,

@@ -58,6 +58,8 @@ class VisibilityBuffer {
   // So many pixels beyond the last may be read and written back by loops that take several at once.
   static constexpr std::size_t kSpare = 16;
   void clear();
+  // Of columns [begin, end) in the rows [first, last) alone, which must lie inside.
+  void clear(int begin, int end, int first, int last);
   // Keeps the nearer of each pixel. Throws kInternal if the windows differ.
   void merge(const VisibilityBuffer& other);
 

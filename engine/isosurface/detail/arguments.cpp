@@ -67,6 +67,11 @@ void check_arguments(const Field& field, float isovalue, const ExtractOptions& o
     refuse("the cells to march lie outside of the field");
   }
   if (options.bricks != nullptr) check_bricks(field, *options.bricks);
+  if (options.bricks == nullptr
+          ? !options.parts.empty() || options.part_runs != nullptr
+          : !options.parts.empty() && options.parts.size() != options.bricks->min.size()) {
+    refuse(fmt::format("{} words for the parts of other bricks", options.parts.size()));
+  }
 }
 
 }  // namespace footwall::isosurface::detail

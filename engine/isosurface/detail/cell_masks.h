@@ -1,6 +1,7 @@
 // Which cells are to be looked at, a bit each: those of the box, in bricks that the isovalue can cross.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/isosurface/detail/frame.h"
@@ -9,8 +10,8 @@ namespace footwall::isosurface::detail {
 
 class CellMasks {
  public:
-  // bricks may be null: then all cells of the box.
-  CellMasks(const Frame& frame, const Bricks* bricks);
+  // bricks may be null: then all cells of the box. parts: as in ExtractOptions.
+  CellMasks(const Frame& frame, const Bricks* bricks, std::span<const BrickParts> parts);
 
   // The words of the row of cells (p, r) of the frame; null where no cell is to be looked at.
   const std::uint64_t* row(std::int64_t p, std::int64_t r) const {
@@ -30,9 +31,13 @@ class CellMasks {
   }
 
  private:
+  void take_bricks(const Frame& frame, const Bricks& bricks, const survey::Box& touched);
+  void take_parts(const Frame& frame, const Bricks& bricks, std::span<const BrickParts> parts,
+                  const survey::Box& touched);
+
   std::int64_t first_i_ = 0;  // of the frame, counted from the first brick that it touches
   std::int64_t first_j_ = 0;
-  int shift_ = 62;  // without bricks all rows are alike
+  int shift_ = 62;  // rows of so many bits of i and j are alike; without bricks all of them
   std::int64_t columns_ = 1;
   std::size_t words_a_row_ = 0;
   std::vector<std::uint64_t> words_;

@@ -242,6 +242,29 @@ std::uint64_t count_triangles(const Frame& frame, const BitPlanes& planes, const
   return HWY_DYNAMIC_DISPATCH(count_plane)(frame, planes, cases, p, here, slow);
 }
 
+void list_part_runs(const Frame& frame, const CaseLookup& cases, const ActiveCells& cells, std::int64_t p,
+                    std::span<const SlowCell> slow, std::uint64_t first, std::vector<PartRun>& into) {
+  const survey::Index& origin = frame.field->origin;
+  const std::int64_t i = p + frame.cells.lo[0] + origin[0];
+  const SlowCell* next_slow = slow.data();
+  for (std::int64_t r = cells.from; r < cells.to; ++r) {
+    const auto row = static_cast<std::size_t>(r);
+    const std::int64_t j = r + frame.cells.lo[1] + origin[1];
+    std::int64_t part = -1;
+    for (std::size_t n = cells.first[row]; n < cells.first[row + 1]; ++n) {
+      const std::int64_t here = (static_cast<std::int64_t>(cells.cells[n]) + origin[2]) >> 1;
+      if (here != part) into.push_back({first, i, j, here});
+      part = here;
+      const std::uint8_t count = cases.lanes[cells.bits[n]][kLanes - 1];
+      if (count != kSlow) {
+        first += count;
+      } else {
+        first += pattern_of(cases.signs[cells.bits[n]], (next_slow++)->alternative).triangles.size();
+      }
+    }
+  }
+}
+
 std::uint64_t count_centres(std::span<const SlowCell> slow, PlaneMasks& into) {
   std::uint64_t count = 0;
   for (const SlowCell& cell : slow) {

@@ -6,6 +6,7 @@
 
 #include "engine/isosurface/detail/case_lookup.h"
 #include "engine/isosurface/detail/plane_masks.h"
+#include "engine/isosurface/extract.h"
 #include "engine/isosurface/surface.h"
 
 namespace footwall::isosurface::detail {
@@ -28,6 +29,11 @@ struct CentreLoop {
 // Of the cells of plane p, whose corner bits are noted; slow cells are added.
 std::uint64_t count_triangles(const Frame& frame, const BitPlanes& planes, const CaseLookup& cases,
                               std::int64_t p, ActiveCells& here, std::vector<SlowCell>& slow);
+
+// Where the triangles of each two cells along samples stand, for cells that count_triangles() has
+// seen; `first`: the number of the plane's first triangle.
+void list_part_runs(const Frame& frame, const CaseLookup& cases, const ActiveCells& cells, std::int64_t p,
+                    std::span<const SlowCell> slow, std::uint64_t first, std::vector<PartRun>& into);
 
 // Sets counts[].centres of the plane that the cells belong to; returns their sum.
 std::uint64_t count_centres(std::span<const SlowCell> slow, PlaneMasks& into);

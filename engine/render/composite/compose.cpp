@@ -67,6 +67,29 @@ SurfaceLayer Composer::compose(comm::Communicator& world, std::span<const LitSur
   return layer;
 }
 
+SurfaceLayer Composer::compose_drawn(comm::Communicator& world, SurfaceFrame& frame, VisibilityBuffer& window,
+                                     const ComposeOptions& options, ComposeReport& report) {
+  report = {};
+  const comm::Traffic before = world.traffic();
+  const Halving halving(world.size());
+  SurfaceLayer layer = world.collectively([&] {
+    require(window.width() == options.width && window.rows() == options.height, "a whole picture");
+    const Stopwatch time(report.seconds.shade);
+    colours_.resize(window.pixels().size());
+    frame.shade(window, colours_, options.threads);
+    report.triangles = static_cast<std::int64_t>(frame.triangles());
+    return SurfaceLayer(options.width, options.height);
+  });
+  window_ = std::move(window);
+  const Rows left = merge(world, halving, 0, {0, options.height}, report);
+  gather(world, halving, left, layer, report);
+  window = std::move(*window_);
+  window_.reset();
+  report.bytes = world.traffic().bytes - before.bytes;
+  report.messages = world.traffic().messages - before.messages;
+  return layer;
+}
+
 void Composer::draw(Rows rows, const ComposeOptions& options, ComposeReport& report) {
   if (rows.count() == 0) {
     window_.reset();

@@ -49,6 +49,10 @@ class Composer {
   // all (AgreedError): kUsage for a size that cannot be, kMemory.
   SurfaceLayer compose(comm::Communicator& world, std::span<const LitSurface> surfaces, const Camera& camera,
                        const ComposeOptions& options, ComposeReport& report);
+  // The same for pictures that are drawn already, in another way: `window` is this rank's whole picture,
+  // which shows triangles of `frame` (numbered); what it shows after that is of no use.
+  SurfaceLayer compose_drawn(comm::Communicator& world, SurfaceFrame& frame, VisibilityBuffer& window,
+                             const ComposeOptions& options, ComposeReport& report);
   static constexpr std::int64_t kMostPixels = std::int64_t{1} << 24;
 
  private:

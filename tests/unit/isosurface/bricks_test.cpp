@@ -248,5 +248,78 @@ TEST_F(Bricks, RefuseWhatDoesNotFit) {
   EXPECT_EQ(code_of(field, 0, {}), ErrorCode::kInvalid);
 }
 
+// The surface of parts is put together from those of single cells, in the order of cells.
+TEST(BrickParts, GiveTheWholeSurfacesTriangles) {
+  const Index size{20, 18, 27};
+  for (const double null_share : {0.0, 0.01}) {
+    const SampleVolume volume = random_volume(size, 11, null_share);
+    const BrickRanges ranges = brick_ranges(volume.field(), 1);
+    const isosurface::Bricks bricks = ranges.tables();
+    std::mt19937_64 random(3);
+    std::vector<BrickParts> parts(ranges.min.size());
+    for (BrickParts& word : parts) word = random() % 5 == 0 ? 0 : random() & random();
+    Surface whole;
+    extract(volume.field(), 0.1F, {}, whole);
+
+    std::vector<Point> corners;  // three a triangle, each a place and a normal
+    std::vector<PartRun> runs;
+    for (std::int64_t i = 0; i + 1 < size[0]; ++i) {
+      for (std::int64_t j = 0; j + 1 < size[1]; ++j) {
+        std::int64_t part = -1;
+        for (std::int64_t k = 0; k + 1 < size[2]; ++k) {
+          const auto word =
+              static_cast<std::size_t>((i / 8 * bricks.dims[1] + j / 8) * bricks.dims[2] + k / 8);
+          if ((parts[word] >> (16 * (i % 8 / 2) + 4 * (j % 8 / 2) + k % 8 / 2) & 1U) == 0) continue;
+          ExtractOptions one;
+          one.cells = Box{{i, j, k}, {i + 1, j + 1, k + 1}};
+          Surface cell;
+          extract(volume.field(), 0.1F, one, cell);
+          if (cell.triangles.empty()) continue;
+          if (k / 2 != part) runs.push_back({corners.size() / 6, i, j, k / 2});
+          part = k / 2;
+          for (const Triangle& triangle : cell.triangles.all()) {
+            for (const std::uint32_t v : triangle) {
+              corners.push_back(cell.positions[v]);
+              corners.push_back(cell.normals[v]);
+            }
+          }
+        }
+      }
+    }
+    for (int threads = 1; threads <= 3; ++threads) {
+      ExtractOptions options;
+      options.threads = threads;
+      options.bricks = &bricks;
+      options.parts = parts;
+      std::vector<PartRun> listed;
+      options.part_runs = &listed;
+      Surface made;
+      extract(volume.field(), 0.1F, options, made);
+      ASSERT_EQ(made.triangles.size(), corners.size() / 6);
+      EXPECT_LT(made.triangles.size(), whole.triangles.size());
+      std::size_t at = 0;
+      for (const Triangle& triangle : made.triangles.all()) {
+        for (const std::uint32_t v : triangle) {
+          ASSERT_EQ(made.positions[v], corners[at++]);
+          ASSERT_EQ(made.normals[v], corners[at++]);
+        }
+      }
+      ASSERT_EQ(listed.size(), runs.size());
+      for (std::size_t n = 0; n < runs.size(); ++n) {
+        ASSERT_EQ(listed[n].first_triangle, runs[n].first_triangle);
+        ASSERT_EQ(listed[n].i, runs[n].i);
+        ASSERT_EQ(listed[n].j, runs[n].j);
+        ASSERT_EQ(listed[n].part, runs[n].part);
+      }
+    }
+    ExtractOptions wrong;
+    wrong.parts = parts;
+    EXPECT_THROW(extract(volume.field(), 0.1F, wrong, whole), Error);
+    wrong.bricks = &bricks;
+    wrong.parts = std::span(parts).first(3);
+    EXPECT_THROW(extract(volume.field(), 0.1F, wrong, whole), Error);
+  }
+}
+
 }  // namespace
 }  // namespace footwall::isosurface
