@@ -21,7 +21,8 @@ constexpr int kMostRepeats = 1000;
 
 struct Options {
   tasks::BenchIsosurfaceOptions volume;
-  std::string dims, ranks = "1,2,4,8", picture = "1024x1024", cell, estimate_cells = "4,1";
+  std::string dims, modes = "depth,paper", ranks = "1,2,4,8", picture = "1024x1024", cell,
+                    estimate_cells = "4,1";
   std::vector<std::string> views;
   std::optional<int> threads;
   bool orthographic = false;
@@ -80,6 +81,14 @@ console::Output run(Options& options, const console::Console& console) {
     throw Error(ErrorCode::kUsage, fmt::format("--repeat {} makes no sense", bench.repeats),
                 fmt::format("give 1 to {}", kMostRepeats));
   }
+  std::vector<std::string> modes;
+  for (const std::string_view mode : text::split(options.modes, ',')) {
+    if (mode != "depth" && mode != "paper") {
+      throw Error(ErrorCode::kUsage, fmt::format("there is no mode '{}'", mode),
+                  "give depth, paper or depth,paper");
+    }
+    modes.emplace_back(mode);
+  }
   const std::vector<int> ranks = ranks_from(options.ranks);
   const auto [width, height] = picture_size_from(options.picture);
   bench.width = width;
@@ -106,7 +115,7 @@ console::Output run(Options& options, const console::Console& console) {
     std::copy_n(volume.values.begin() + static_cast<std::ptrdiff_t>(first), values.size(), values.begin());
   });
   console::Output output;
-  output.json = console::Json::parse(tasks::bench_visible(bench, ranks, launch, console.job()));
+  output.json = console::Json::parse(tasks::bench_visible(bench, modes, ranks, launch, console.job()));
   output.json["volume"] = volume.name;
   output.text = visible_tables(output.json);
   return output;
@@ -126,17 +135,19 @@ void add_bench_visible(console::Program& program, CLI::App* group) {
                       "A made-up volume instead: sphere, gyroid, envelope");
   command->add_option("--size", options->volume.size, "Its samples on each axis (default 256)");
   command->add_option("--value", options->volume.value, "Isovalue (default: the synthetic volume's own)");
-  command->add_option("--mode", options->bench.mode,
-                      "How visible cells are found: paper (default), seed 003's");
+  command->add_option(
+      "--mode", options->modes,
+      "How visible cells are found: depth, paper (seed 003's), or both (default depth,paper)");
   command->add_option("--view", options->views,
                       "AZIMUTH,ELEVATION in degrees, several times (default 30,25 and 210,-10)");
   command->add_flag("--orthographic", options->orthographic, "Parallel lines of sight");
   command->add_option("--picture", options->picture, "Pixels (default 1024x1024)");
   command->add_option(
       "--cell", options->cell,
-      "Lattice cells of an octree's cell: N or NxMxK (default: about 32 cells along each axis)");
-  command->add_option("--estimate-cell", options->estimate_cells,
-                      "In what work is estimated, N or NxMxK, with commas; each is measured (default 4,1)");
+      "Mode paper: lattice cells of an octree's cell: N or NxMxK (default: about 32 cells along each axis)");
+  command->add_option(
+      "--estimate-cell", options->estimate_cells,
+      "Mode paper: in what work is estimated, N or NxMxK, with commas; each is measured (default 4,1)");
   command->add_option("--ranks", options->ranks, "Numbers of MPI ranks, with commas (default 1,2,4,8)");
   command->add_option("--threads", options->threads, "Threads of each rank (default 1)");
   command->add_option("--repeat", options->bench.repeats,

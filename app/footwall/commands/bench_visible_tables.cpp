@@ -26,6 +26,23 @@ std::vector<Json> rows_of(const Json& run, std::size_t view) {
   return rows;
 }
 
+// Of a run; processor time where it is told.
+double seconds_of(const Json& row) {
+  const Json& busy = row.at("busy_seconds");
+  return (busy.is_null() ? row.at("median_seconds") : busy).get<double>();
+}
+
+std::string estimate_of(const Json& row) {
+  const std::string words = cell_in_words(row.at("estimate_cell"));
+  return words == "0" ? "counted" : "cell " + words;
+}
+
+// In `extract` processor time where it is told.
+double seconds_of(const Json& pass, const std::string& phase) {
+  const Json& busy = pass.at("busy_seconds");
+  return (phase == "extract" && !busy.is_null() ? busy : pass.at("seconds")).at(phase).get<double>();
+}
+
 double share(double of, double all) {
   return all > 0 ? 100 * of / all : 0;
 }
@@ -58,8 +75,7 @@ std::string times(const Json& runs, std::size_t view) {
       "\ntables 2 and 3, figures 7 and 8: view {}, ms; by the cells in which work is estimated\n{:>6}",
       view + 1, "ranks");
   for (const Json& row : rows_of(first, view)) {
-    text += fmt::format(" {:>9} {:>9} {:>8} {:>6}", "cell " + cell_in_words(row.at("estimate_cell")),
-                        "own cores", "speed-up", "eff.");
+    text += fmt::format(" {:>9} {:>9} {:>8} {:>6}", estimate_of(row), "own cores", "speed-up", "eff.");
   }
   text += fmt::format(" {:>12}\n", "whole/ranks");
   for (const Json& run : runs) {
@@ -68,8 +84,8 @@ std::string times(const Json& runs, std::size_t view) {
     const std::vector<Json> rows = rows_of(run, view);
     const std::vector<Json> rows_of_first = rows_of(first, view);
     for (std::size_t n = 0; n < rows.size(); ++n) {
-      const double busy = rows[n].at("busy_seconds").get<double>();
-      const double gain = busy > 0 ? rows_of_first[n].at("busy_seconds").get<double>() / busy : 1;
+      const double busy = seconds_of(rows[n]);
+      const double gain = busy > 0 ? seconds_of(rows_of_first[n]) / busy : 1;
       text += fmt::format(" {:>9.2f} {:>9.2f} {:>8.2f} {:>6.2f}",
                           kMilli * rows[n].at("median_seconds").get<double>(), kMilli * busy, gain,
                           gain * first.at("ranks").get<int>() / ranks);
@@ -80,15 +96,16 @@ std::string times(const Json& runs, std::size_t view) {
       "whole: extracted in {:.2f} ms and drawn in {:.2f} ms by one rank; divided by ranks as if nothing were "
       "lost\n"
       "own cores: processor time of rank 0's decisions and of the slowest rank's triangles, messages left "
-      "out;\n"
-      "speed-up and efficiency are of that\n",
+      "out\n"
+      "(in mode depth the time as it was); speed-up and efficiency are of that\n",
       kMilli * extraction, kMilli * whole.at("draw_seconds").get<double>());
   return text;
 }
 
 std::string phases(const Json& runs, std::size_t view) {
   std::string text = fmt::format(
-      "\nfigure 9: where the time goes, view {}, ms (extract: processor time)\n{:>6}", view + 1, "ranks");
+      "\nfigure 9: where the time goes, view {}, ms (extract of mode paper: processor time)\n{:>6}", view + 1,
+      "ranks");
   for (const char* phase : kPhases) text += fmt::format(" {:>10}", phase);
   text += "\n";
   for (const Json& run : runs) {
@@ -96,8 +113,7 @@ std::string phases(const Json& runs, std::size_t view) {
     const Json row = rows_of(run, view).back();
     for (const std::string phase : kPhases) {
       double seconds = 0;
-      for (const Json& pass : row.at("passes"))
-        seconds += pass.at(phase == "extract" ? "busy_seconds" : "seconds").at(phase).get<double>();
+      for (const Json& pass : row.at("passes")) seconds += seconds_of(pass, phase);
       text += fmt::format(" {:>10.2f}", kMilli * seconds);
     }
     text += "\n";
@@ -146,26 +162,39 @@ std::string passes(const Json& runs, std::size_t view) {
   return text;
 }
 
-}  // namespace
-
-std::string visible_tables(const console::Json& result) {
-  const Json& runs = result.at("runs");
+std::string of_mode(const std::string& volume, const Json& runs) {
   const Json& first = runs.front();
   const auto size = first.at("size").get<std::array<std::int64_t, 3>>();
-  std::string text = fmt::format(
-      "{} {}x{}x{} at {:g}, {}x{} pixels, cells of {}, mode {}\n\n", result.at("volume").get<std::string>(),
-      size[2], size[1], size[0], first.at("value").get<double>(), first.at("width").get<int>(),
-      first.at("height").get<int>(), cell_in_words(first.at("cell")), first.at("mode").get<std::string>());
+  std::string text = fmt::format("{} {}x{}x{} at {:g}, {}x{} pixels, cells of {}, mode {}\n\n", volume,
+                                 size[2], size[1], size[0], first.at("value").get<double>(),
+                                 first.at("width").get<int>(), first.at("height").get<int>(),
+                                 cell_in_words(first.at("cell")), first.at("mode").get<std::string>());
   text += sizes(first);
   const std::size_t views = first.at("views").size();
   for (std::size_t view = 0; view < views; ++view) text += times(runs, view);
   for (std::size_t view = 0; view < views; ++view) text += phases(runs, view);
   text += loads(runs);
   for (std::size_t view = 0; view < views; ++view) text += passes(runs, view);
-  text +=
-      "px farther: show something behind what is seen of the whole surface; px lost: show nothing of it\n"
-      "every number of ranks found the same cells and triangles in each pass";
-  return text;
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string visible_tables(const console::Json& result) {
+  std::string text;
+  const auto volume = result.at("volume").get<std::string>();
+  Json of_one_mode = Json::array();
+  for (const Json& run : result.at("runs")) {
+    if (!of_one_mode.empty() && of_one_mode.front().at("mode") != run.at("mode")) {
+      text += of_mode(volume, of_one_mode);
+      of_one_mode = Json::array();
+    }
+    of_one_mode.push_back(run);
+  }
+  text += of_mode(volume, of_one_mode);
+  return text +
+         "px farther: show something behind what is seen of the whole surface; px lost: show nothing of it\n"
+         "every number of ranks found the same cells and triangles in each pass";
 }
 
 }  // namespace footwall::commands

@@ -9,6 +9,9 @@
 
 #include "engine/isosurface/brick_ranges.h"
 #include "engine/isosurface/visible/paper/visible_paper.h"
+#include "engine/isosurface/visible/parallel/brick_pillars.h"
+#include "engine/isosurface/visible/parallel/world_ranks.h"
+#include "engine/isosurface/visible/visible_drawing.h"
 #include "engine/render/composite/compose.h"
 #include "engine/tasks/visible_bench/visible_bench.h"
 #include "storage/base/partial_file.h"
@@ -42,14 +45,20 @@ struct Whole {
   }
 };
 
+struct Run {
+  double seconds = 0;
+  VisibleReport report;
+  std::vector<VisiblePieces::Busy> busy_seconds;  // mode paper
+};
+
 class Bench {
  public:
   Bench(const comm::Communicator& parent, const VisibleBench& bench, const JobContext& job)
       : world_(parent.get()), bench_(bench), job_(job) {
     world_.collectively([&] {
-      if (bench.mode != "paper") {
-        throw Error(ErrorCode::kUsage, fmt::format("there is no mode '{}' to be measured", bench.mode),
-                    "use paper");
+      if (bench.mode != "paper" && bench.mode != "depth") {
+        throw Error(ErrorCode::kUsage, fmt::format("there is no mode '{}'", bench.mode),
+                    "use depth or paper");
       }
       const formats::raw::RawFile file(bench.raw, bench.size);
       values_.resize_uninitialised(static_cast<std::size_t>(bench.size[0] * bench.size[1] * bench.size[2]));
@@ -59,6 +68,10 @@ class Bench {
       cell_ = bench.cell;
       const survey::Index chosen = default_paper_cell(bench.size);
       for (int axis = 0; axis < 3; ++axis) cell_[axis] = cell_[axis] == 0 ? chosen[axis] : cell_[axis];
+      if (is_depth()) {
+        parts_.emplace(volume_, world_.size(), world_.rank(), Interleaving{1, 1, 1});
+        return;
+      }
       if (world_.rank() == 0) octree_ = paper_octree(volume_, ranges_.tables(), cell_, bench.threads);
     });
   }
@@ -80,6 +93,9 @@ class Bench {
                        {"triangles_seen", drawn.triangles_seen},
                        {"extract_seconds", drawn.extract_seconds},
                        {"draw_seconds", drawn.draw_seconds}});
+      // Mode depth counts the work.
+      if (is_depth()) rows.push_back(row_of(view, request, {0, 0, 0}, drawn));
+      if (is_depth()) continue;
       for (const survey::Index& estimate : bench_.estimate_cells)
         rows.push_back(row_of(view, request, estimate, drawn));
     }
@@ -89,7 +105,7 @@ class Bench {
             {"size", bench_.size},       {"value", bench_.value},
             {"mode", bench_.mode},       {"views", std::move(views)},
             {"width", bench_.width},     {"perspective", bench_.perspective},
-            {"height", bench_.height},   {"cell", cell_},
+            {"height", bench_.height},   {"cell", is_depth() ? kBrickCells : cell_},
             {"repeats", bench_.repeats}, {"whole", std::move(whole)},
             {"rows", std::move(rows)}};
   }
@@ -98,10 +114,16 @@ class Bench {
   VisibleRequest request_of(const VisibleView& view) const;
   Whole whole_of(const VisibleRequest& request) const;
   Json row_of(std::size_t view, VisibleRequest request, const survey::Index& estimate, const Whole& whole);
+  bool is_depth() const { return bench_.mode == "depth"; }
+  // One picture's triangles, from the isovalue on, without what the last picture told.
+  Run passes_of(const VisibleRequest& request);
+  render::SurfaceLayer picture_of(const VisibleRequest& request);
+  // Of this rank, in the last picture.
+  std::int64_t own_triangles();
   // Over all passes.
-  double load_difference_of(const VisiblePieces& pieces) const;
+  double load_difference_of_all();
   // Draws what was found. On rank 0 adds to the row how the picture differs from that of the whole surface.
-  void compare(const VisiblePieces& pieces, const VisibleRequest& request, const Whole& whole, Json& row);
+  void compare(const VisibleRequest& request, const Whole& whole, Json& row);
 
   comm::Communicator world_;
   const VisibleBench& bench_;
@@ -110,7 +132,11 @@ class Bench {
   Field volume_;
   BrickRanges ranges_;
   survey::Index cell_{0, 0, 0};
-  std::optional<Octree> octree_;  // on rank 0
+  std::optional<Octree> octree_;  // mode paper, on rank 0
+  VisiblePieces pieces_;
+  std::optional<BrickPillars> parts_;  // mode depth
+  VisibleDrawing drawing_;
+  render::Composer composer_;
 };
 
 VisibleRequest Bench::request_of(const VisibleView& view) const {
@@ -132,7 +158,7 @@ VisibleRequest Bench::request_of(const VisibleView& view) const {
   request.colour = kColour;
   request.width = bench_.width;
   request.height = bench_.height;
-  request.mode = VisibleMode::kPaper;
+  request.mode = is_depth() ? VisibleMode::kDepth : VisibleMode::kPaper;
   request.threads = bench_.threads;
   request.cell = cell_;
   return request;
@@ -173,16 +199,46 @@ Whole Bench::whole_of(const VisibleRequest& request) const {
   return whole;
 }
 
-void Bench::compare(const VisiblePieces& pieces, const VisibleRequest& request, const Whole& whole,
-                    Json& row) {
-  std::vector<render::LitSurface> surfaces;
-  for (const SomeTriangles& some : pieces.passes)
-    surfaces.push_back(lit(some, request.colour, request.placement));
-  render::Composer composer;
-  render::ComposeReport report;
+Run Bench::passes_of(const VisibleRequest& request) {
+  Run run;
+  drawing_.forget();
+  comm::check(MPI_Barrier(world_.get()), "MPI_Barrier");
   const double start = omp_get_wtime();
-  const render::SurfaceLayer layer = composer.compose(
-      world_, surfaces, request.camera, {request.width, request.height, request.threads, {}}, report);
+  if (is_depth()) {
+    WorldRanks ranks(world_);
+    run.report = drawing_.draw(ranks, parts_->parts(), request);
+  } else {
+    extract_visible_paper(world_, volume_, octree_ ? &*octree_ : nullptr, request, job_.part(1, 1), {},
+                          pieces_);
+    run.report = pieces_.report;
+    run.busy_seconds = pieces_.busy_seconds;
+  }
+  run.seconds = world_.maximum(omp_get_wtime() - start);
+  return run;
+}
+
+render::SurfaceLayer Bench::picture_of(const VisibleRequest& request) {
+  const render::ComposeOptions options{request.width, request.height, request.threads, {}};
+  render::ComposeReport report;
+  if (is_depth())
+    return composer_.compose_drawn(world_, drawing_.frame(), drawing_.window(), options, report);
+  std::vector<render::LitSurface> surfaces;
+  for (const SomeTriangles& some : pieces_.passes)
+    surfaces.push_back(lit(some, request.colour, request.placement));
+  return composer_.compose(world_, surfaces, request.camera, options, report);
+}
+
+std::int64_t Bench::own_triangles() {
+  if (is_depth()) return static_cast<std::int64_t>(drawing_.frame().triangles());
+  std::int64_t triangles = 0;
+  for (const SomeTriangles& some : pieces_.passes)
+    triangles += static_cast<std::int64_t>(some.surface.triangles.size());
+  return triangles;
+}
+
+void Bench::compare(const VisibleRequest& request, const Whole& whole, Json& row) {
+  const double start = omp_get_wtime();
+  const render::SurfaceLayer layer = picture_of(request);
   row["draw_seconds"] = world_.maximum(omp_get_wtime() - start);
   world_.collectively([&] {
     if (world_.rank() != 0) return;
@@ -210,46 +266,24 @@ void Bench::compare(const VisiblePieces& pieces, const VisibleRequest& request, 
   });
 }
 
-double Bench::load_difference_of(const VisiblePieces& pieces) const {
-  const std::int64_t cells = pieces.passes.empty() ? 0 : 1;
-  std::int64_t triangles = 0;
-  for (const SomeTriangles& some : pieces.passes)
-    triangles += static_cast<std::int64_t>(some.surface.triangles.size());
-  std::vector<std::int64_t> cells_of_ranks(static_cast<std::size_t>(world_.size()));
-  std::vector<std::int64_t> triangles_of_ranks(cells_of_ranks.size());
-  comm::check(MPI_Allgather(&cells, 1, MPI_INT64_T, cells_of_ranks.data(), 1, MPI_INT64_T, world_.get()),
+double Bench::load_difference_of_all() {
+  const std::int64_t triangles = own_triangles();
+  std::vector<std::int64_t> of_ranks(static_cast<std::size_t>(world_.size()));
+  comm::check(MPI_Allgather(&triangles, 1, MPI_INT64_T, of_ranks.data(), 1, MPI_INT64_T, world_.get()),
               "MPI_Allgather");
-  comm::check(
-      MPI_Allgather(&triangles, 1, MPI_INT64_T, triangles_of_ranks.data(), 1, MPI_INT64_T, world_.get()),
-      "MPI_Allgather");
-  return load_difference(cells_of_ranks, triangles_of_ranks);
+  return load_difference(of_ranks, of_ranks);
 }
 
 Json Bench::row_of(std::size_t view, VisibleRequest request, const survey::Index& estimate,
                    const Whole& whole) {
   request.estimate_cell = estimate;
   Json row{{"view", view}, {"estimate_cell", estimate}};
-  struct Run {
-    double seconds = 0;
-    VisibleReport report;
-    std::vector<VisiblePieces::Busy> busy_seconds;
-  };
+  // The first one, which pays for new memory, is drawn.
+  passes_of(request);
+  row["load_difference"] = load_difference_of_all();
+  compare(request, whole, row);
   std::vector<Run> runs;
-  VisiblePieces pieces;
-  for (int n = 0; n <= bench_.repeats; ++n) {
-    comm::check(MPI_Barrier(world_.get()), "MPI_Barrier");
-    const double start = omp_get_wtime();
-    extract_visible_paper(world_, volume_, octree_ ? &*octree_ : nullptr, request, job_.part(1, 1), {},
-                          pieces);
-    const double seconds = world_.maximum(omp_get_wtime() - start);
-    // The first one, which pays for new memory, is drawn.
-    if (n > 0) {
-      runs.push_back({seconds, pieces.report, pieces.busy_seconds});
-      continue;
-    }
-    compare(pieces, request, whole, row);
-    row["load_difference"] = load_difference_of(pieces);
-  }
+  for (int n = 0; n < bench_.repeats; ++n) runs.push_back(passes_of(request));
   if (world_.rank() != 0) return row;
   std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.seconds < b.seconds; });
   const Run& middle = runs[runs.size() / 2];
@@ -260,8 +294,12 @@ Json Bench::row_of(std::size_t view, VisibleRequest request, const survey::Index
   for (std::size_t n = 0; n < middle.report.passes.size(); ++n) {
     const VisiblePass& pass = middle.report.passes[n];
     const VisiblePass::Seconds& s = pass.seconds;
-    const VisiblePieces::Busy& of_pass = middle.busy_seconds[n];
-    busy += of_pass.host + of_pass.extract;
+    Json busy_of_pass;
+    if (n < middle.busy_seconds.size()) {
+      const auto& [host, extract] = middle.busy_seconds[n];
+      busy += host + extract;
+      busy_of_pass = {{"host", host}, {"extract", extract}};
+    }
     passes.push_back({{"cells", pass.cells},
                       {"triangles", pass.triangles},
                       {"load_difference", pass.load_difference},
@@ -273,12 +311,12 @@ Json Bench::row_of(std::size_t view, VisibleRequest request, const survey::Index
                         {"assign", s.assign},
                         {"extract", s.extract},
                         {"composite", s.composite}}},
-                      {"busy_seconds", {{"host", of_pass.host}, {"extract", of_pass.extract}}}});
+                      {"busy_seconds", std::move(busy_of_pass)}});
   }
   row["triangles"] = middle.report.triangles;
   row["finished"] = middle.report.finished;
   row["median_seconds"] = middle.seconds;
-  row["busy_seconds"] = busy;
+  row["busy_seconds"] = is_depth() ? Json() : Json(busy);
   row["seconds"] = std::move(seconds);
   row["passes"] = std::move(passes);
   return row;

@@ -74,25 +74,31 @@ VisibleBench read_visible_bench(const std::filesystem::path& path) {
   }
 }
 
-std::string bench_visible(VisibleBench bench, const std::vector<int>& ranks, session::LaunchOptions launch,
+std::string bench_visible(VisibleBench bench, const std::vector<std::string>& modes,
+                          const std::vector<int>& ranks, session::LaunchOptions launch,
                           const JobContext& job) {
   const session::PrivateFolder folder(session::temporary_home());
   bench.raw = std::filesystem::absolute(bench.raw);
   bench.result = folder.path() / "result.json";
   bench.threads = launch.threads > 0 ? launch.threads : session::default_threads();
   const std::filesystem::path job_file = folder.path() / "BENCH.json";
-  write_visible_bench(bench, job_file);
   Json runs = Json::array();
-  for (std::size_t n = 0; n < ranks.size(); ++n) {
-    launch.ranks = ranks[n];
-    const auto done = static_cast<double>(n);
-    const auto all = static_cast<double>(ranks.size());
-    runs.push_back(
-        Json::parse(session::run_engine(launch, {{"bench-visible", job_file.string()}, bench.result},
-                                        job.part(done / all, (done + 1) / all))));
-    if (common_of(runs.back()) != common_of(runs.front())) {
-      throw Error(ErrorCode::kInternal,
-                  fmt::format("{} ranks find other triangles than {}", ranks[n], ranks.front()));
+  const auto all = static_cast<double>(modes.size() * ranks.size());
+  for (const std::string& mode : modes) {
+    bench.mode = mode;
+    write_visible_bench(bench, job_file);
+    Json first;
+    for (const int count : ranks) {
+      launch.ranks = count;
+      const auto done = static_cast<double>(runs.size());
+      runs.push_back(
+          Json::parse(session::run_engine(launch, {{"bench-visible", job_file.string()}, bench.result},
+                                          job.part(done / all, (done + 1) / all))));
+      const Json common = common_of(runs.back());
+      if (first.is_null()) first = common;
+      if (common == first) continue;
+      throw Error(ErrorCode::kInternal, fmt::format("in mode {} {} ranks find other triangles than {}", mode,
+                                                    count, ranks.front()));
     }
   }
   return Json{{"runs", std::move(runs)}}.dump(1);

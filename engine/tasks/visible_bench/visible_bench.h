@@ -23,7 +23,7 @@ struct VisibleBench {
   std::filesystem::path raw;    // float32, little-endian, samples (x of the picture) fastest
   survey::Index size{0, 0, 0};  // i, j, k: z, y, x of the picture
   float value = 0;
-  std::string mode = "paper";
+  std::string mode = "depth";  // or "paper"
   std::vector<VisibleView> views;
   bool perspective = true;
   int width = 1024;
@@ -42,7 +42,7 @@ struct VisibleBench {
   // rank's. busy_seconds: processor time, of rank 0 in visibility and partition (host) and of the slowest
   // rank in `extract`; of a row, all passes: what ranks that share cores would need with a core each,
   // messages left out. pixels_farther: that show something behind what is seen of the whole surface;
-  // pixels_lost: that show nothing where the whole surface is.
+  // pixels_lost: that show nothing where the whole surface is. busy_seconds is null in mode depth.
   std::filesystem::path result;
 };
 
@@ -56,9 +56,11 @@ VisibleBench read_visible_bench(const std::filesystem::path& path);
 void run_visible_bench(const comm::Communicator& parent, const std::filesystem::path& job_path,
                        const JobContext& job);
 
-// Starts the engine for each number of ranks. Returns the text of {runs: [what run_visible_bench() wrote]}.
-// Throws kInternal where passes are not the same for all numbers of ranks, and what the engine throws.
-std::string bench_visible(VisibleBench bench, const std::vector<int>& ranks, session::LaunchOptions launch,
+// Starts the engine for each mode and number of ranks; bench.mode is not looked at. Returns the text of
+// {runs: [what run_visible_bench() wrote]}. Throws kInternal where passes are not the same for all numbers of
+// ranks, and what the engine throws.
+std::string bench_visible(VisibleBench bench, const std::vector<std::string>& modes,
+                          const std::vector<int>& ranks, session::LaunchOptions launch,
                           const JobContext& job);
 
 }  // namespace footwall::tasks

@@ -8,7 +8,7 @@ class BenchVisible(FootwallTest):
     SMALL = ("--picture", "120x90", "--repeat", 1)
 
     def test_every_number_of_ranks_makes_the_same_passes(self):
-        answer = self.footwall("bench", "visible", "--synthetic", "sphere", "--size", 60, "--ranks", "1,2,3,5",
+        answer = self.footwall("bench", "visible", "--synthetic", "sphere", "--size", 60, "--ranks", "1,2,3,5", "--mode", "paper",
                                "--view", "30,25", "--view", "-100,40", *self.SMALL)
         self.assertEqual([run["ranks"] for run in answer["runs"]], [1, 2, 3, 5])
         first = answer["runs"][0]
@@ -29,6 +29,17 @@ class BenchVisible(FootwallTest):
         self.assertTrue(all(row["load_difference"] == 0 for row in first["rows"]))
         self.assertTrue(all(row["load_difference"] < 0.2 for row in answer["runs"][1]["rows"]))
 
+    def test_mode_depth_is_the_whole_picture(self):
+        answer = self.footwall("bench", "visible", "--synthetic", "envelope", "--size", 48, "--ranks", "1,3", *self.SMALL)
+        self.assertEqual([(run["mode"], run["ranks"]) for run in answer["runs"]],
+                         [("depth", 1), ("depth", 3), ("paper", 1), ("paper", 3)])
+        for run in answer["runs"][:2]:
+            self.assertEqual(len(run["rows"]), 2)
+            for row in run["rows"]:
+                self.assertEqual((row["pixels_farther"], row["pixels_lost"]), (0, 0))
+                self.assertEqual(row["pixels"], run["whole"][row["view"]]["pixels"])
+                self.assertLess(row["triangles"], run["whole"][row["view"]]["triangles"])
+
     def test_it_prints_the_tables_of_the_paper(self):
         words = self.start("bench", "visible", "--synthetic", "sphere", "--size", 40, "--ranks", "1,4", *self.SMALL)
         self.assertEqual(words.returncode, 0, words.stderr)
@@ -38,7 +49,7 @@ class BenchVisible(FootwallTest):
 
     def test_an_empty_surface_takes_no_pass(self):
         answer = self.footwall("bench", "visible", "--synthetic", "sphere", "--size", 24, "--value", 1000, "--ranks", 2,
-                               *self.SMALL)
+                               "--mode", "paper", *self.SMALL)
         row = answer["runs"][0]["rows"][0]
         self.assertEqual((row["triangles"], row["passes"], row["pixels"]), (0, [], 0))
         words = self.start("bench", "visible", "--synthetic", "sphere", "--size", 24, "--value", 1000, "--ranks", 2,
