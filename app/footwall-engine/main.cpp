@@ -11,6 +11,7 @@
 #include "app/footwall-engine/isosurface_command.h"
 #include "app/footwall-engine/render_command.h"
 #include "app/footwall-engine/running_job.h"
+#include "app/footwall-engine/visible_command.h"
 #include "app/footwall-engine/workload_command.h"
 #include "engine/comm/environment.h"
 #include "engine/session/attribute.h"
@@ -65,6 +66,7 @@ int run(const Communicator& world, int argc, char** argv) {
   attribute->add_option("JOB", job, "what to make, JSON")->required();
   footwall::app::IsosurfaceCommand isosurface(app);
   const footwall::app::RenderCommand render(app);
+  const footwall::app::VisibleCommand visible(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -82,6 +84,8 @@ int run(const Communicator& world, int argc, char** argv) {
     isosurface.run(world);
   } else if (render.parsed()) {
     render.run(world);
+  } else if (visible.parsed()) {
+    visible.run(world);
   } else {
     footwall::app::batch(world, job, options);
   }

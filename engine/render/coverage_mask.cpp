@@ -14,11 +14,7 @@ static_assert(CoverageMask::kTile == 1 << kShift);
 
 // The bits of columns [x0, x1) in rows [y0, y1) of a tile.
 constexpr std::uint64_t bits_of(int x0, int y0, int x1, int y1) {
-  const std::uint64_t row =
-      (std::uint64_t{1} << static_cast<unsigned>(x1)) - (std::uint64_t{1} << static_cast<unsigned>(x0));
-  const std::uint64_t rows =
-      y1 - y0 == CoverageMask::kTile ? kFull : (std::uint64_t{1} << static_cast<unsigned>(8 * (y1 - y0))) - 1;
-  return (0x0101010101010101U * row) & (rows << static_cast<unsigned>(8 * y0));
+  return CoverageMask::bits_in_tile({x0, y0, x1, y1});
 }
 
 constexpr int tiles_for(int size) {
@@ -124,15 +120,6 @@ void CoverageMask::merge(int first, std::span<const std::uint64_t> words) {
       "whole rows of tiles of this picture");
   for (std::size_t n = 0; n < words.size(); ++n)
     add(static_cast<int>(n % columns), first + static_cast<int>(n / columns), words[n]);
-}
-
-void CoverageMask::add(int column, int row, std::uint64_t bits) {
-  Level& level = levels_.front();
-  std::uint64_t& word = level.words[static_cast<std::size_t>(row) * static_cast<std::size_t>(level.columns) +
-                                    static_cast<std::size_t>(column)];
-  if ((bits & ~word) == 0) return;
-  word |= bits;
-  if (word == kFull) tell_full(column, row);
 }
 
 void CoverageMask::tell_full(int column, int row) {

@@ -48,13 +48,30 @@ class CoverageMask {
   // Covers what other words of such rows cover. Throws kInternal where their number is another.
   void merge(int first, std::span<const std::uint64_t> words);
 
-  // For those who draw into it: bits that are to be set in a tile.
+  // For those who draw into it: the bits of a rectangle that lies in one tile, not empty; a tile's word; bits
+  // that are to be set in a tile.
+  static constexpr std::uint64_t bits_in_tile(const PixelRect& pixels) {
+    const unsigned x0 = static_cast<unsigned>(pixels.x0) % kTile;
+    const unsigned y0 = static_cast<unsigned>(pixels.y0) % kTile;
+    const auto columns = static_cast<unsigned>(pixels.x1 - pixels.x0);
+    const auto rows = static_cast<unsigned>(pixels.y1 - pixels.y0);
+    const std::uint64_t row = ((std::uint64_t{1} << columns) - 1) << x0;
+    return (0x0101010101010101U * row & ~std::uint64_t{0} >> (kTile * (kTile - rows))) << kTile * y0;
+  }
   std::uint64_t tile_at(int column, int row) const {
     const Level& level = levels_.front();
     return level.words[static_cast<std::size_t>(row) * static_cast<std::size_t>(level.columns) +
                        static_cast<std::size_t>(column)];
   }
-  void add(int column, int row, std::uint64_t bits);
+  void add(int column, int row, std::uint64_t bits) {
+    Level& level = levels_.front();
+    std::uint64_t& word =
+        level.words[static_cast<std::size_t>(row) * static_cast<std::size_t>(level.columns) +
+                    static_cast<std::size_t>(column)];
+    if ((bits & ~word) == 0) return;
+    word |= bits;
+    if (word == ~std::uint64_t{0}) tell_full(column, row);
+  }
 
  private:
   struct Level {

@@ -9,6 +9,7 @@
 #include "engine/isosurface/visible/paper/screen_box.h"
 #include "engine/render/composite/compose.h"
 #include "engine/verify/covered_by_definition.h"
+#include "rounds.h"
 #include "unit/isosurface/sample_volumes.h"
 
 namespace footwall::isosurface {
@@ -255,6 +256,33 @@ TEST(VisiblePaper, ABallsPictureIsThatOfTheWholeWithFewerTriangles) {
       EXPECT_LT(pieces.report.triangles, static_cast<std::int64_t>(whole.triangles.size() * 9 / 10));
       EXPECT_DOUBLE_EQ(pieces.report.passes.back().percent, 100);
       EXPECT_EQ(pieces.report.passes.back().uncovered_pixels, 0);
+    }
+  }
+}
+
+// Whatever is lost, it is lost behind something: no pixel is left empty, and none shows what is not there.
+TEST(VisiblePaper, RandomViewsCoverWhatTheWholeCovers) {
+  comm::Communicator world(MPI_COMM_WORLD);
+  std::mt19937 random(11);
+  const auto upto = [&](int last) { return std::uniform_int_distribution<int>(0, last)(random); };
+  for (int n = 0; n < rounds(12); ++n) {
+    const survey::Index size{20 + upto(30), 20 + upto(30), 20 + upto(30)};
+    const bool perspective = upto(1) == 0;
+    const render::Camera camera =
+        n % 4 == 3 ? inside(size) : outside(size, upto(359), upto(180) - 90, perspective);
+    const Scene scene(lumps(size, n % 3 == 0 ? 0.02 : 0), static_cast<float>(upto(20)) / 10 - 1, camera);
+    VisibleRequest request = scene.asked();
+    const int side = upto(2);
+    request.cell = side == 0   ? survey::Index{8, 8, 8}
+                   : side == 1 ? survey::Index{8, 16, 24}
+                               : survey::Index{6, 5, 9};
+    request.estimate_cell = {1 + upto(3), 1 + upto(3), 1 + upto(3)};
+    const VisiblePieces pieces = found(world, scene, request);
+    const Pixels got = picture_of(world, pieces, request);
+    const Pixels want = whole_picture(world, scene);
+    for (std::size_t p = 0; p < want.depth.size(); ++p) {
+      ASSERT_GE(got.depth[p], want.depth[p]) << "view " << n << ", pixel " << p;
+      ASSERT_EQ(got.depth[p] < 1, want.depth[p] < 1) << "view " << n << ", pixel " << p;
     }
   }
 }

@@ -63,7 +63,12 @@ void expect_whole(const SampleVolume& volume, const survey::Index& cell, int par
     }
   }
   std::vector<SomeTriangles> some;
-  for (const std::vector<survey::Box>& part : boxes) some.push_back(cells.extract(part));
+  for (const std::vector<survey::Box>& part : boxes) {
+    SomeTriangles used;  // whatever was in it
+    cells.extract(boxes.front(), used);
+    cells.extract(part, used);
+    some.push_back(std::move(used));
+  }
   const std::map<render::PrimitiveId, Corners> got = numbered(some);
   Surface whole;
   extract(field, 0, {}, whole);
@@ -94,9 +99,12 @@ TEST(ExtractCells, TakesNoBoxesAndFlatVolumes) {
   const SampleVolume flat = random_volume({9, 1, 9}, 1);
   const BrickRanges bricks = brick_ranges(flat.field(), 1);
   ExtractCells cells(flat.field(), bricks.tables(), 0, 1);
-  EXPECT_TRUE(cells.extract({}).surface.triangles.empty());
+  SomeTriangles some;
+  cells.extract({}, some);
+  EXPECT_TRUE(some.surface.triangles.empty());
   const survey::Box none{{0, 0, 0}, {8, 0, 8}};
-  EXPECT_TRUE(cells.extract(std::span(&none, 1)).surface.triangles.empty());
+  cells.extract(std::span(&none, 1), some);
+  EXPECT_TRUE(some.surface.triangles.empty());
 }
 
 TEST(ExtractCells, RefusesPartsOfVolumesAndForeignTables) {

@@ -86,5 +86,13 @@ TEST(Partition, TakesMoreRanksThanCellsAndCellsWithoutWork) {
   for (const int rank : partition_picture(idle, 10, 10, 3)) EXPECT_TRUE(rank >= 0 && rank < 3);
 }
 
+TEST(Partition, DealsLargeTilesToRanksThatHaveLittle) {
+  const std::vector<std::int64_t> nothing(3);
+  EXPECT_EQ(deal_tiles(std::vector<std::int64_t>{5, 5, 5}, nothing), (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(deal_tiles(std::vector<std::int64_t>{0, 9, 0}, nothing), (std::vector<int>{1, 0, 2}));
+  EXPECT_EQ(deal_tiles(std::vector<std::int64_t>{7, 9, 8}, std::vector<std::int64_t>{300, 200, 100}),
+            (std::vector<int>{0, 2, 1}));
+}
+
 }  // namespace
 }  // namespace footwall::isosurface

@@ -101,8 +101,11 @@ TEST(CoverageMask, TrianglesCoverWhatTheDefinitionSays) {
 }
 
 TEST(CoverageMask, AMeshCoversThePixelsThatItIsDrawnOn) {
-  const sample::Mesh ball = sample::ball(40, 0);
-  for (const bool perspective : {true, false}) {
+  // Of triangles of many pixels, and of few or none.
+  const sample::Mesh balls[] = {sample::ball(40, 0), sample::ball(200, 0)};
+  for (int n = 0; n < 4; ++n) {
+    const sample::Mesh& ball = balls[n / 2];
+    const bool perspective = n % 2 == 0;
     for (const double zoom : {0.7, 3.0, 40.0}) {
       Camera camera = Camera::look(40, 20, zoom, Bounds{{-1, -1, -1}, {1, 1, 1}}, 1.5, perspective);
       // Inside of the ball, so that triangles have to be clipped.
@@ -124,6 +127,56 @@ TEST(CoverageMask, AMeshCoversThePixelsThatItIsDrawnOn) {
       }
       hwy::SetSupportedTargetsForTest(0);
     }
+  }
+}
+
+TEST(CoverageMask, SmallTrianglesCoverWhatTheDefinitionSays) {
+  Random random(4);
+  for (int round = 0; round < 40; ++round) {
+    const int width = between(random, 1, 40);
+    const int height = between(random, 1, 40);
+    // Corners as a mesh has them, with whatever place they are projected from: none is clipped.
+    std::vector<ScreenVertex> vertices;
+    std::vector<TriangleIndices> triangles;
+    for (std::int32_t n = 0; n < 600; n += 3) {
+      const ScreenVertex a = vertex(random, -4, 44);
+      for (int corner = 0; corner < 3; ++corner) {
+        ScreenVertex v = a;
+        v.x += between(random, -2, 2) * kSubPixels / 2 + between(random, -1, 1) * between(random, 0, 300);
+        v.y += between(random, -2, 2) * kSubPixels / 2 + between(random, -1, 1) * between(random, 0, 300);
+        vertices.push_back(v);
+      }
+      triangles.push_back({n, n + 1, n + 2});
+    }
+    verify::CoveredPixels want(width, height);
+    for (const TriangleIndices& t : triangles) {
+      const auto at = [&](std::size_t n) {
+        const ScreenVertex& v = vertices[static_cast<std::size_t>(t[n])];
+        return verify::RasterPoint{v.x, v.y};
+      };
+      want.cover(at(0), at(1), at(2), kSubPixels);
+    }
+    const std::vector<Vec3f> positions(vertices.size());
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+      hwy::SetSupportedTargetsForTest(target);
+      // One by one, so that nothing hides behind another one, and all at once.
+      CoverageMask mask(width, height);
+      cover({}, positions, vertices, triangles, mask);
+      expect_same(mask, want, random);
+      for (std::size_t n = 0; n < triangles.size(); n += 7) {
+        CoverageMask alone(width, height);
+        CoverageMask screen(width, height);
+        cover({}, positions, vertices, std::span(triangles).subspan(n, 1), alone);
+        const TriangleIndices& t = triangles[n];
+        cover_screen(vertices[static_cast<std::size_t>(t[0])], vertices[static_cast<std::size_t>(t[1])],
+                     vertices[static_cast<std::size_t>(t[2])], screen);
+        const auto got = alone.tiles(0, alone.tile_rows());
+        const auto same = screen.tiles(0, screen.tile_rows());
+        ASSERT_TRUE(std::equal(got.begin(), got.end(), same.begin(), same.end())) << "triangle " << n;
+      }
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    if (HasFatalFailure()) return;
   }
 }
 

@@ -109,8 +109,9 @@ bool ExtractCells::is_set(std::int64_t i, std::int64_t j, std::int64_t c) const 
   return c < all_.dims[2] && some_.min[n] < isovalue_ && isovalue_ <= some_.max[n];
 }
 
-std::vector<render::IdRun> ExtractCells::runs_of(const Surface& surface) const {
-  std::vector<render::IdRun> runs;
+void ExtractCells::find_runs(SomeTriangles& some) const {
+  const Surface& surface = some.surface;
+  some.runs.clear();
   for_each_row(surface, [&](std::int64_t i, std::int64_t j, std::size_t first, std::size_t last) {
     std::int64_t brick = -1;
     for (std::size_t t = first; t < last; ++t) {
@@ -123,13 +124,12 @@ std::vector<render::IdRun> ExtractCells::runs_of(const Surface& surface) const {
       if (!is_set(i, j, of)) --of;
       if (of <= brick) continue;
       brick = of;
-      runs.push_back({t, order_.first(i, j, brick * kBrick)});
+      some.runs.push_back({t, order_.first(i, j, brick * kBrick)});
     }
   });
-  return runs;
 }
 
-SomeTriangles ExtractCells::extract_bricks(std::span<const survey::Box> boxes) {
+void ExtractCells::extract_bricks(std::span<const survey::Box> boxes, SomeTriangles& into) {
   ExtractOptions options;
   options.threads = threads_;
   survey::Box around = boxes.front();
@@ -143,14 +143,12 @@ SomeTriangles ExtractCells::extract_bricks(std::span<const survey::Box> boxes) {
   const Bricks tables = some_.tables();
   options.cells = around;
   options.bricks = &tables;
-  SomeTriangles some;
-  isosurface::extract(volume_, isovalue_, options, some.surface);
-  some.runs = runs_of(some.surface);
+  isosurface::extract(volume_, isovalue_, options, into.surface);
+  find_runs(into);
   for (const survey::Box& box : boxes) set_bricks(box, false);
-  return some;
 }
 
-SomeTriangles ExtractCells::extract_boxes(std::span<const survey::Box> boxes) {
+void ExtractCells::extract_boxes(std::span<const survey::Box> boxes, SomeTriangles& into) {
   Surface all;
   Surface part;
   std::vector<Stretch> stretches;
@@ -166,32 +164,37 @@ SomeTriangles ExtractCells::extract_boxes(std::span<const survey::Box> boxes) {
   }
   std::sort(stretches.begin(), stretches.end(),
             [](const Stretch& a, const Stretch& b) { return a.id < b.id; });
-  SomeTriangles some;
-  some.surface.triangles.grow(all.triangles.size());
+  into.surface.triangles.resize_uninitialised(all.triangles.size());
+  into.runs.clear();
   std::size_t next = 0;
   for (const Stretch& stretch : stretches) {
-    some.runs.push_back({next, stretch.id});
+    into.runs.push_back({next, stretch.id});
     const Triangle* const from = all.triangles.data() + stretch.first;
-    std::copy(from, from + stretch.count, some.surface.triangles.data() + next);
+    std::copy(from, from + stretch.count, into.surface.triangles.data() + next);
     next += stretch.count;
   }
-  some.surface.positions = std::move(all.positions);
-  some.surface.normals = std::move(all.normals);
-  return some;
+  into.surface.positions = std::move(all.positions);
+  into.surface.normals = std::move(all.normals);
 }
 
-SomeTriangles ExtractCells::extract(std::span<const survey::Box> boxes) {
+void ExtractCells::extract(std::span<const survey::Box> boxes, SomeTriangles& into) {
   std::vector<survey::Box> with_cells;
   for (const survey::Box& box : boxes) {
     if (!box.empty()) with_cells.push_back(box);
   }
-  if (with_cells.empty()) return {};
+  if (with_cells.empty()) {
+    into = {};
+    return;
+  }
   const bool bricks = std::all_of(with_cells.begin(), with_cells.end(),
                                   [&](const survey::Box& box) { return are_bricks(box); });
-  SomeTriangles some = bricks ? extract_bricks(with_cells) : extract_boxes(with_cells);
-  some.surface.row_first.clear();
-  some.surface.cells = {};
-  return some;
+  if (bricks) {
+    extract_bricks(with_cells, into);
+  } else {
+    extract_boxes(with_cells, into);
+  }
+  into.surface.row_first.clear();
+  into.surface.cells = {};
 }
 
 }  // namespace footwall::isosurface

@@ -28,17 +28,17 @@ class ExtractCells {
 
   // The triangles in `boxes` of lattice cells, which do not overlap. Where all are boxes of whole bricks, cut
   // at the volume, one go of the kernel finds them; other boxes take one each, which is slower. Vertices and
-  // normals are those of the whole surface, bit for bit; those between two boxes may be there twice. Throws
-  // as extract().
-  SomeTriangles extract(std::span<const survey::Box> boxes);
+  // normals are those of the whole surface, bit for bit; those between two boxes may be there twice. `into`
+  // keeps its room. Throws as extract().
+  void extract(std::span<const survey::Box> boxes, SomeTriangles& into);
 
  private:
   bool are_bricks(const survey::Box& box) const;
   void set_bricks(const survey::Box& box, bool there);
   bool is_set(std::int64_t i, std::int64_t j, std::int64_t c) const;
-  SomeTriangles extract_bricks(std::span<const survey::Box> boxes);
-  SomeTriangles extract_boxes(std::span<const survey::Box> boxes);
-  std::vector<render::IdRun> runs_of(const Surface& surface) const;
+  void extract_bricks(std::span<const survey::Box> boxes, SomeTriangles& into);
+  void extract_boxes(std::span<const survey::Box> boxes, SomeTriangles& into);
+  void find_runs(SomeTriangles& some) const;
 
   Field volume_;
   Bricks all_;

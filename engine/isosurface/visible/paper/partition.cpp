@@ -74,4 +74,20 @@ std::vector<int> partition_picture(std::span<const PlacedWork> cells, int width,
   return rank_of;
 }
 
+std::vector<int> deal_tiles(std::span<const std::int64_t> work_of_tiles,
+                            std::span<const std::int64_t> triangles_of_ranks) {
+  require(work_of_tiles.size() == triangles_of_ranks.size(), "a tile for each rank");
+  std::vector<std::size_t> tiles(work_of_tiles.size());
+  std::iota(tiles.begin(), tiles.end(), std::size_t{0});
+  std::vector<std::size_t> ranks = tiles;
+  std::stable_sort(tiles.begin(), tiles.end(),
+                   [&](std::size_t a, std::size_t b) { return work_of_tiles[a] > work_of_tiles[b]; });
+  std::stable_sort(ranks.begin(), ranks.end(), [&](std::size_t a, std::size_t b) {
+    return triangles_of_ranks[a] < triangles_of_ranks[b];
+  });
+  std::vector<int> rank_of(tiles.size());
+  for (std::size_t n = 0; n < tiles.size(); ++n) rank_of[tiles[n]] = static_cast<int>(ranks[n]);
+  return rank_of;
+}
+
 }  // namespace footwall::isosurface

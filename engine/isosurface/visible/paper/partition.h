@@ -20,4 +20,10 @@ struct PlacedWork {
 // Based on: seed 003, section 3.3; differs in that P need not be a power of two.
 std::vector<int> partition_picture(std::span<const PlacedWork> cells, int width, int height, int ranks);
 
+// The rank that each tile goes to: the one with the most work to the rank with the fewest triangles so far,
+// and so on; ties by number. As many tiles as ranks. The paper does not say who gets which tile; where passes
+// of a few cells always go to the same ranks, small differences add up.
+std::vector<int> deal_tiles(std::span<const std::int64_t> work_of_tiles,
+                            std::span<const std::int64_t> triangles_of_ranks);
+
 }  // namespace footwall::isosurface

@@ -27,6 +27,12 @@ Octree paper_octree(const Field& volume, const Bricks& bricks, const survey::Ind
 struct VisiblePieces {
   std::vector<SomeTriangles> passes;  // one for each pass in which this rank got cells
   VisibleReport report;               // of all ranks, on rank 0; elsewhere it tells nothing
+  // Rank 0: processor time of each pass, which is no more where ranks share a core.
+  struct Busy {
+    double host = 0;     // rank 0's, in visibility and partition
+    double extract = 0;  // the slowest rank's
+  };
+  std::vector<Busy> busy_seconds;
 };
 
 // Collective; the same Error on all ranks: kUsage for a picture, cell or estimate cell that cannot be,
@@ -34,7 +40,7 @@ struct VisiblePieces {
 // every rank. octree: of request.cell on rank 0, nullptr elsewhere. after_pass (may be empty): called on
 // every rank when a pass is done, with what there is so far; collective calls are allowed in it, and its time
 // is not counted. The number of triangles of each pass does not depend on the number of ranks, nor do the
-// passes.
+// passes. `into` keeps its room.
 void extract_visible_paper(comm::Communicator& world, const Field& volume, const Octree* octree,
                            const VisibleRequest& request, const JobContext& job,
                            const std::function<void(const VisiblePieces&)>& after_pass, VisiblePieces& into);

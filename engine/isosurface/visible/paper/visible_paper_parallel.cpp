@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 
 #include "engine/isosurface/visible/paper/merge_masks.h"
 #include "engine/isosurface/visible/paper/partition.h"
@@ -18,17 +19,29 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<survey::Box>);
 
-// Adds the time of its own life.
+double processor_seconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
+// Adds the time of its own life, and the processor's.
 class Stopwatch {
  public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds), start_(omp_get_wtime()) {}
-  ~Stopwatch() { seconds_ += omp_get_wtime() - start_; }
+  Stopwatch(double& seconds, double& busy)
+      : seconds_(seconds), busy_(busy), start_(omp_get_wtime()), start_busy_(processor_seconds()) {}
+  ~Stopwatch() {
+    seconds_ += omp_get_wtime() - start_;
+    busy_ += processor_seconds() - start_busy_;
+  }
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
 
  private:
   double& seconds_;
+  double& busy_;
   double start_;
+  double start_busy_;
 };
 
 // What a rank did in a pass.
@@ -36,6 +49,7 @@ struct Share {
   std::int64_t cells = 0;
   std::int64_t triangles = 0;
   VisiblePass::Seconds seconds;
+  VisiblePieces::Busy busy;
 };
 
 struct ActiveCell {
@@ -59,8 +73,10 @@ void check(const VisibleRequest& request, const Field& volume) {
 // Rank 0: which cells are visible, and who gets them.
 class Host {
  public:
-  Host(const Octree& octree, const VisibleRequest& request, const render::Matrix4& to_clip)
-      : request_(request), mask_(request.width, request.height) {
+  Host(const Octree& octree, const VisibleRequest& request, const render::Matrix4& to_clip, int ranks)
+      : request_(request),
+        mask_(request.width, request.height),
+        triangles_of_ranks_(static_cast<std::size_t>(ranks)) {
     const Viewpoint from = viewpoint_of(request.camera, request.placement);
     octree.front_to_back(from, request.isovalue, [&](const Octree::Node& node) {
       if (node.level > 0) return true;
@@ -91,10 +107,15 @@ class Host {
     return visible_;
   }
   std::int64_t uncovered_pixels() const { return mask_.claimed_pixels(); }
-  void end_pass(const render::CoverageMask& covered) { mask_.end_pass(covered); }
+  void end_pass(const render::CoverageMask& covered, const std::vector<std::int64_t>& triangles_of_ranks) {
+    mask_.end_pass(covered);
+    for (std::size_t rank = 0; rank < triangles_of_ranks_.size(); ++rank)
+      triangles_of_ranks_[rank] += triangles_of_ranks[rank];
+  }
 
   // The boxes of visible cells that each rank gets, in the order in which they were found.
-  std::vector<std::vector<survey::Box>> partition(const Field& volume, int ranks) {
+  std::vector<std::vector<survey::Box>> partition(const Field& volume) {
+    const std::size_t ranks = triangles_of_ranks_.size();
     survey::Index block = request_.estimate_cell;
     for (int axis = 0; axis < 3; ++axis) {
       if (block[axis] == 0) block[axis] = kDefaultEstimateCell[axis];
@@ -102,10 +123,17 @@ class Host {
     std::vector<PlacedWork> placed;
     for (const ActiveCell& cell : visible_)
       placed.push_back({cell.box, workload_.of(volume, cell.cells, request_.isovalue, block)});
-    const std::vector<int> rank_of = partition_picture(placed, request_.width, request_.height, ranks);
-    std::vector<std::vector<survey::Box>> boxes(static_cast<std::size_t>(ranks));
-    for (std::size_t n = 0; n < visible_.size(); ++n)
-      boxes[static_cast<std::size_t>(rank_of[n])].push_back(visible_[n].cells);
+    const std::vector<int> tile_of =
+        partition_picture(placed, request_.width, request_.height, static_cast<int>(ranks));
+    std::vector<std::int64_t> work_of_tiles(ranks);
+    for (std::size_t n = 0; n < placed.size(); ++n)
+      work_of_tiles[static_cast<std::size_t>(tile_of[n])] += placed[n].work;
+    const std::vector<int> rank_of = deal_tiles(work_of_tiles, triangles_of_ranks_);
+    std::vector<std::vector<survey::Box>> boxes(ranks);
+    for (std::size_t n = 0; n < visible_.size(); ++n) {
+      const int rank = rank_of[static_cast<std::size_t>(tile_of[n])];
+      boxes[static_cast<std::size_t>(rank)].push_back(visible_[n].cells);
+    }
     return boxes;
   }
 
@@ -114,6 +142,7 @@ class Host {
   VisibilityMask mask_;
   std::vector<ActiveCell> active_;
   std::vector<ActiveCell> visible_;
+  std::vector<std::int64_t> triangles_of_ranks_;  // in all passes that are done
   Workload workload_;
 };
 
@@ -138,27 +167,53 @@ Assignment assignment_from(const comm::Bytes& bytes) {
   return assignment;
 }
 
-// From rank 0 to each.
-Assignment assign(comm::Communicator& world, std::vector<Assignment> all) {
-  if (world.rank() != 0) return assignment_from(render::take_from(world, 0));
-  for (int rank = 1; rank < world.size(); ++rank)
-    render::give_to(world, rank, bytes_of(all[static_cast<std::size_t>(rank)]));
-  return std::move(all.front());
+// From rank 0 to each: sizes, then boxes.
+Assignment assign(comm::Communicator& world, const std::vector<Assignment>& all) {
+  std::vector<comm::Bytes> bytes;
+  std::vector<std::uint64_t> sizes;
+  for (const Assignment& each : all) {
+    bytes.push_back(bytes_of(each));
+    sizes.push_back(bytes.back().size());
+  }
+  std::uint64_t size = 0;
+  std::vector<comm::KnownOutgoing> outgoing;
+  std::vector<comm::KnownIncoming> incoming;
+  if (world.rank() != 0) incoming.push_back({0, std::as_writable_bytes(std::span(&size, 1))});
+  for (int rank = 1; rank < static_cast<int>(all.size()); ++rank) {
+    const auto n = static_cast<std::size_t>(rank);
+    outgoing.push_back({rank, std::as_bytes(std::span(sizes).subspan(n, 1)), sizeof size});
+  }
+  world.exchange_known(outgoing, incoming);
+  comm::Bytes mine(size);
+  for (comm::KnownOutgoing& message : outgoing) {
+    message.bytes = bytes[static_cast<std::size_t>(message.rank)];
+    message.most = message.bytes.size();
+  }
+  for (comm::KnownIncoming& message : incoming) message.room = mine;
+  world.exchange_known(outgoing, incoming);
+  return world.rank() == 0 ? all.front() : assignment_from(mine);
 }
 
 // What all ranks did, on rank 0.
-VisiblePass pass_of(comm::Communicator& world, const Share& mine) {
+struct Done {
+  VisiblePass pass;
+  VisiblePieces::Busy busy;
+  std::vector<std::int64_t> triangles_of_ranks;
+};
+Done pass_of(comm::Communicator& world, const Share& mine) {
   comm::Bytes bytes(sizeof mine);
   std::memcpy(bytes.data(), &mine, sizeof mine);
   const std::vector<comm::Bytes> others = render::gather_to_first(world, world.size(), bytes);
-  VisiblePass pass;
+  Done done;
+  VisiblePass& pass = done.pass;
   std::vector<std::int64_t> cells;
-  std::vector<std::int64_t> triangles;
   const auto add = [&](const Share& share) {
     cells.push_back(share.cells);
-    triangles.push_back(share.triangles);
+    done.triangles_of_ranks.push_back(share.triangles);
     pass.cells += share.cells;
     pass.triangles += share.triangles;
+    done.busy.host = std::max(done.busy.host, share.busy.host);
+    done.busy.extract = std::max(done.busy.extract, share.busy.extract);
     pass.seconds.visibility = std::max(pass.seconds.visibility, share.seconds.visibility);
     pass.seconds.partition = std::max(pass.seconds.partition, share.seconds.partition);
     pass.seconds.assign = std::max(pass.seconds.assign, share.seconds.assign);
@@ -171,8 +226,8 @@ VisiblePass pass_of(comm::Communicator& world, const Share& mine) {
     std::memcpy(&share, other.data(), sizeof share);
     add(share);
   }
-  pass.load_difference = load_difference(cells, triangles);
-  return pass;
+  pass.load_difference = load_difference(cells, done.triangles_of_ranks);
+  return done;
 }
 
 // Draws triangles into the coverage mask.
@@ -192,90 +247,136 @@ class Cover {
   std::vector<render::ScreenVertex> vertices_;
 };
 
+// The passes of one picture, step by step; every step is called on all ranks.
+class Passes {
+ public:
+  Passes(comm::Communicator& world, const Field& volume, const VisibleRequest& request, VisiblePieces& into)
+      : world_(world), volume_(volume), request_(request), into_(into), start_(omp_get_wtime()) {
+    room_ = std::move(into.passes);
+    into = {};
+  }
+
+  void begin(const Octree* octree) {
+    const render::Matrix4 to_clip = request_.placement.then(request_.camera.view_projection);
+    world_.collectively([&] {
+      check(request_, volume_);
+      covered_.emplace(request_.width, request_.height);
+      cells_.emplace(volume_, request_.bricks, request_.isovalue, request_.threads);
+      cover_.emplace(to_clip);
+      if (world_.rank() != 0) return;
+      const Stopwatch time(mine_.seconds.visibility, mine_.busy.host);
+      require(octree != nullptr && octree->volume_size() == request_.volume_size, "an octree of the volume");
+      host_.emplace(*octree, request_, to_clip, world_.size());
+    });
+  }
+
+  // 1. Which cells are visible, as far as is known, and 2. who is to extract them. Rank 0 alone.
+  std::vector<Assignment> find(const JobContext& job) {
+    std::vector<Assignment> all(world_.rank() == 0 ? static_cast<std::size_t>(world_.size()) : 0);
+    world_.collectively([&] {
+      job.check();
+      if (world_.rank() != 0) return;
+      const bool any = find_visible();
+      const bool stops = any && is_over();
+      if (stops) into_.report.finished = false;
+      if (!any || stops) {
+        for (Assignment& each : all) each.ends = true;
+        return;
+      }
+      const Stopwatch time(mine_.seconds.partition, mine_.busy.host);
+      std::vector<std::vector<survey::Box>> boxes = host_->partition(volume_);
+      for (std::size_t rank = 0; rank < all.size(); ++rank) all[rank].boxes = std::move(boxes[rank]);
+    });
+    return all;
+  }
+
+  // 3. Each rank learns its cells.
+  Assignment assigned(const std::vector<Assignment>& all) {
+    double busy = 0;
+    const Stopwatch time(mine_.seconds.assign, busy);
+    return assign(world_, all);
+  }
+
+  // 4. Triangles, and what they cover.
+  void extract(const std::vector<survey::Box>& boxes) {
+    world_.collectively([&] {
+      if (boxes.empty()) return;
+      const Stopwatch time(mine_.seconds.extract, mine_.busy.extract);
+      const std::size_t at = into_.passes.size();
+      into_.passes.push_back(at < room_.size() ? std::move(room_[at]) : SomeTriangles());
+      SomeTriangles& some = into_.passes.back();
+      cells_->extract(boxes, some);
+      cover_->draw(some, *covered_);
+      mine_.cells = static_cast<std::int64_t>(boxes.size());
+      mine_.triangles = static_cast<std::int64_t>(some.surface.triangles.size());
+    });
+  }
+
+  // 5. The masks of all ranks to rank 0, and what was done.
+  void composite() {
+    {
+      double busy = 0;
+      const Stopwatch time(mine_.seconds.composite, busy);
+      merge_masks(world_, *covered_);
+    }
+    const Done done = pass_of(world_, mine_);
+    mine_ = {};
+    if (world_.rank() != 0) return;
+    into_.busy_seconds.push_back(done.busy);
+    into_.report.passes.push_back(done.pass);
+    host_->end_pass(*covered_, done.triangles_of_ranks);
+  }
+
+  // Something that does not count.
+  void aside(const std::function<void(const VisiblePieces&)>& call) {
+    if (!call) return;
+    const double before = omp_get_wtime();
+    call(into_);
+    start_ += omp_get_wtime() - before;
+  }
+
+ private:
+  bool find_visible() {
+    const Stopwatch time(mine_.seconds.visibility, mine_.busy.host);
+    const bool any = !host_->find_visible().empty();
+    std::vector<VisiblePass>& done = into_.report.passes;
+    if (!done.empty()) done.back().uncovered_pixels = host_->uncovered_pixels();
+    return any;
+  }
+  // One pass is made, whatever the time.
+  bool is_over() const {
+    const auto done = static_cast<int>(into_.report.passes.size());
+    if (request_.passes > 0 && done >= request_.passes) return true;
+    return done > 0 && request_.budget_seconds && omp_get_wtime() - start_ >= *request_.budget_seconds;
+  }
+
+  comm::Communicator& world_;
+  const Field& volume_;
+  const VisibleRequest& request_;
+  VisiblePieces& into_;
+  double start_;
+  std::vector<SomeTriangles> room_;  // of the last picture
+  std::optional<Host> host_;         // on rank 0
+  std::optional<ExtractCells> cells_;
+  std::optional<render::CoverageMask> covered_;
+  std::optional<Cover> cover_;
+  Share mine_;
+};
+
 }  // namespace
 
 void extract_visible_paper(comm::Communicator& world, const Field& volume, const Octree* octree,
                            const VisibleRequest& request, const JobContext& job,
                            const std::function<void(const VisiblePieces&)>& after_pass, VisiblePieces& into) {
-  into = {};
-  const double start = omp_get_wtime();
-  double aside = 0;  // in after_pass
-  const render::Matrix4 to_clip = request.placement.then(request.camera.view_projection);
-  std::optional<Host> host;
-  std::optional<ExtractCells> cells;
-  std::optional<render::CoverageMask> covered;
-  Cover cover(to_clip);
-  double walked = 0;
-  world.collectively([&] {
-    check(request, volume);
-    covered.emplace(request.width, request.height);
-    cells.emplace(volume, request.bricks, request.isovalue, request.threads);
-    if (world.rank() != 0) return;
-    const Stopwatch time(walked);
-    require(octree != nullptr && octree->volume_size() == request.volume_size, "an octree of the volume");
-    host.emplace(*octree, request, to_clip);
-  });
-
-  for (int pass = 0;; ++pass) {
-    Share mine;
-    std::vector<Assignment> all(world.rank() == 0 ? static_cast<std::size_t>(world.size()) : 0);
-    world.collectively([&] {
-      job.check();
-      if (world.rank() != 0) return;
-      // 1. Which cells are visible, as far as is known.
-      std::size_t visible = 0;
-      {
-        const Stopwatch time(mine.seconds.visibility);
-        visible = host->find_visible().size();
-      }
-      if (pass == 0) mine.seconds.visibility += walked;
-      if (pass > 0) into.report.passes.back().uncovered_pixels = host->uncovered_pixels();
-      const bool late =
-          request.budget_seconds && pass > 0 && omp_get_wtime() - start - aside >= *request.budget_seconds;
-      const bool stops = late || (request.passes > 0 && pass == request.passes);
-      if (stops && visible > 0) into.report.finished = false;
-      if (stops || visible == 0) {
-        for (Assignment& each : all) each.ends = true;
-        return;
-      }
-      // 2. The picture is cut into tiles, one for each rank.
-      const Stopwatch time(mine.seconds.partition);
-      std::vector<std::vector<survey::Box>> boxes = host->partition(volume, world.size());
-      for (std::size_t rank = 0; rank < all.size(); ++rank) all[rank].boxes = std::move(boxes[rank]);
-    });
-
-    // 3. Each rank learns its cells.
-    Assignment assignment;
-    {
-      const Stopwatch time(mine.seconds.assign);
-      assignment = assign(world, std::move(all));
-    }
-    if (assignment.ends) break;
-
-    // 4. Triangles, and what they cover.
-    world.collectively([&] {
-      const Stopwatch time(mine.seconds.extract);
-      if (assignment.boxes.empty()) return;
-      into.passes.push_back(cells->extract(assignment.boxes));
-      cover.draw(into.passes.back(), *covered);
-      mine.cells = static_cast<std::int64_t>(assignment.boxes.size());
-      mine.triangles = static_cast<std::int64_t>(into.passes.back().surface.triangles.size());
-    });
-
-    // 5. The masks of all ranks to rank 0.
-    {
-      const Stopwatch time(mine.seconds.composite);
-      merge_masks(world, *covered);
-    }
-    const VisiblePass done = pass_of(world, mine);
-    if (world.rank() == 0) {
-      into.report.passes.push_back(done);
-      host->end_pass(*covered);
-    }
-    if (after_pass) {
-      const Stopwatch time(aside);
-      after_pass(into);
-    }
+  Passes passes(world, volume, request, into);
+  passes.begin(octree);
+  for (;;) {
+    const std::vector<Assignment> all = passes.find(job);
+    const Assignment mine = passes.assigned(all);
+    if (mine.ends) break;
+    passes.extract(mine.boxes);
+    passes.composite();
+    passes.aside(after_pass);
   }
   into.report.sum_up();
 }
