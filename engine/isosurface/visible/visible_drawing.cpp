@@ -21,8 +21,10 @@ using detail::PendingBrick;
 using detail::PendingBricks;
 using detail::WaveSurfaces;
 
-// Waves that look ahead; what they leave is taken by one more.
+// Waves that look ahead; what they leave is taken by one more, or, where it is much against what was drawn
+// (surfaces full of holes), looked at once more before that.
 constexpr int kLookingAhead = 2;
+constexpr std::int64_t kMuch = 4;  // a quarter
 // By how much more than the mean a rank may have to do, before bricks move.
 constexpr double kUneven = 0.01;
 
@@ -108,7 +110,7 @@ struct VisibleDrawing::State {
 
   void prepare(std::span<const VolumePart> parts, const VisibleRequest& request);
   render::DepthScale place(Ranks& ranks, const VisibleRequest& request);
-  void choose(Ranks& ranks, const VisibleRequest& request, int wave);
+  void choose(Ranks& ranks, const VisibleRequest& request, int wave, bool looks_ahead);
   void share(Ranks& ranks, std::span<const VolumePart> parts, const VisibleRequest& request, int wave,
              VisiblePass::Seconds& seconds);
   std::int64_t extract_chosen(std::span<const VolumePart> parts, const VisibleRequest& request,
@@ -182,14 +184,14 @@ render::DepthScale VisibleDrawing::State::place(Ranks& ranks, const VisibleReque
   return scale;
 }
 
-void VisibleDrawing::State::choose(Ranks& ranks, const VisibleRequest& request, int wave) {
+void VisibleDrawing::State::choose(Ranks& ranks, const VisibleRequest& request, int wave, bool looks_ahead) {
   if (wave == 1 && !seen.empty()) {
     ranks.together([&] { pending.choose(seen); });
     std::array<std::int64_t, 1> count{pending.chosen_parts()};
     ranks.sum(count);
     if (count[0] > 0) return;
   }
-  if (wave > kLookingAhead) {
+  if (!looks_ahead) {
     ranks.together([&] { pending.choose(nullptr, request.threads); });
     return;
   }
@@ -337,32 +339,36 @@ VisibleReport VisibleDrawing::draw(Ranks& ranks, std::span<const VolumePart> par
     scale = state.place(ranks, request);
   }
   std::int64_t left = count_of_all(state.pending.pending_parts());
+  std::int64_t drawn = 0;
   for (int wave = 1;; ++wave) {
     const double wave_start = omp_get_wtime();
     VisiblePass pass;
     pass.seconds.visibility = std::exchange(visibility, 0);
     {
       const Stopwatch time(pass.seconds.visibility);
-      state.choose(ranks, request, wave);
+      const bool looks_ahead = wave <= kLookingAhead || (wave == kLookingAhead + 1 && left * kMuch > drawn);
+      state.choose(ranks, request, wave, looks_ahead);
     }
     state.share(ranks, parts, request, wave, pass.seconds);
     state.draw_wave(ranks, parts, request, {wave > 1 ? &state.merged : nullptr, scale}, pass);
     if (after_wave) after_wave(wave);
     const std::int64_t before = std::exchange(left, count_of_all(state.pending.pending_parts()));
+    const std::int64_t drawn_now = before - left;
+    drawn += drawn_now;
     if (left > 0) {
       {
         const Stopwatch time(pass.seconds.composite);
         state.merge_depths(ranks, scale);
       }
       const Stopwatch time(visibility);
-      const std::int64_t drawn = before - left;
+
       ranks.together([&] { state.pending.give_up_hidden(state.merged, request.threads); });
       pass.uncovered_pixels = state.count_open(ranks);
       left = count_of_all(state.pending.pending_parts());
       // The next wave may take all that is left, at this one's speed.
       const double now = omp_get_wtime();
-      const double share =
-          std::min(1.0, static_cast<double>(left) / static_cast<double>(std::max<std::int64_t>(drawn, 1)));
+      const double share = std::min(
+          1.0, static_cast<double>(left) / static_cast<double>(std::max<std::int64_t>(drawn_now, 1)));
       const bool is_late =
           request.budget_seconds && now - start + share * (now - wave_start) > *request.budget_seconds;
       std::array<std::int64_t, 1> late{is_late || wave == request.passes ? 1 : 0};
