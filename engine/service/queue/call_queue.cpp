@@ -1,0 +1,102 @@
+#include "engine/service/queue/call_queue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace footwall::service {
+
+CallQueue::CallQueue(std::size_t most) : most_(most) {}
+
+void CallQueue::add(std::shared_ptr<Call> call, Calls& to) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (closed_) throw Error(*closed_);
+    if (waiting_.size() + reads_.size() >= most_) {
+      throw Error(ErrorCode::kMemory, fmt::format("{} calls wait for the engine already", most_),
+                  "wait for some of them, or cancel them");
+    }
+    if (call->id_ == 0) call->id_ = ++last_id_;
+    {
+      const std::scoped_lock state_lock(call->mutex_);
+      call->state_.running = false;
+      call->state_.since = Call::Clock::now();
+    }
+    to.push_back(std::move(call));
+  }
+  changed_.notify_one();
+}
+
+void CallQueue::push(std::shared_ptr<Call> call) {
+  add(std::move(call), waiting_);
+}
+
+void CallQueue::push_read(std::shared_ptr<Call> call) {
+  add(std::move(call), reads_);
+}
+
+std::shared_ptr<Call> CallQueue::next() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return closed_ || !waiting_.empty() || !reads_.empty(); });
+  Calls& from = reads_.empty() ? waiting_ : reads_;
+  if (from.empty()) return nullptr;
+  running_ = std::move(from.front());
+  from.pop_front();
+  const std::scoped_lock state_lock(running_->mutex_);
+  running_->state_.running = true;
+  running_->state_.since = Call::Clock::now();
+  return running_;
+}
+
+std::shared_ptr<Call> CallQueue::next_read() {
+  const std::scoped_lock lock(mutex_);
+  if (reads_.empty()) return nullptr;
+  std::shared_ptr<Call> read = std::move(reads_.front());
+  reads_.pop_front();
+  return read;
+}
+
+void CallQueue::done() {
+  const std::scoped_lock lock(mutex_);
+  running_.reset();
+}
+
+std::vector<CallQueue::Entry> CallQueue::entries() const {
+  const std::scoped_lock lock(mutex_);
+  std::vector<Entry> all;
+  const auto add_entry = [&](const Call& call) { all.push_back({call.id(), call.what(), call.state()}); };
+  if (running_) add_entry(*running_);
+  for (const auto& call : reads_) add_entry(*call);
+  for (const auto& call : waiting_) add_entry(*call);
+  return all;
+}
+
+bool CallQueue::cancel(std::uint64_t id) {
+  const std::scoped_lock lock(mutex_);
+  const auto is_it = [&](const std::shared_ptr<Call>& call) { return call && call->id() == id; };
+  std::shared_ptr<Call> found;
+  if (is_it(running_)) found = running_;
+  for (const Calls* calls : {&waiting_, &reads_}) {
+    const auto at = std::find_if(calls->begin(), calls->end(), is_it);
+    if (at != calls->end()) found = *at;
+  }
+  // One that waits is failed when its turn comes, without a word to the ranks.
+  if (found) found->context().cancel();
+  return found != nullptr;
+}
+
+void CallQueue::close(const Error& why) {
+  Calls left;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (!closed_) closed_ = why;
+    left.swap(waiting_);
+    left.insert(left.end(), reads_.begin(), reads_.end());
+    reads_.clear();
+    if (running_) running_->context().cancel();
+  }
+  changed_.notify_all();
+  for (const auto& call : left) call->finish(why);
+}
+
+}  // namespace footwall::service
