@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unordered_map>
 
 #include "engine/pillars/interpolate.h"
 #include "engine/pillars/triangulate.h"
+#include "engine/pillars/world.h"
 #include "engine/tasks/imported_surface.h"
 #include "storage/base/error.h"
 
@@ -33,20 +33,6 @@ std::optional<pillars::Chart> stored_chart(const project::Project& project,
   return mesh ? unpacked(mesh->chart) : std::nullopt;
 }
 
-std::vector<pillars::PillarInput> inputs(const survey::Geometry& survey,
-                                         std::span<const survey::Pillar> stored) {
-  std::vector<pillars::PillarInput> out;
-  for (const survey::Pillar& pillar : stored) {
-    pillars::PillarInput input{pillar.id, std::to_string(pillar.id), {}};
-    for (const survey::PillarNode& node : pillar.nodes) {
-      input.nodes.push_back(survey.index_of(node.position));
-      input.node_ids.push_back(node.id);
-    }
-    out.push_back(std::move(input));
-  }
-  return out;
-}
-
 Error about(const project::FaultRecord& fault, const Error& error) {
   return {error.code(), fmt::format("fault {}: {}", fault.name, error.message()), error.hint()};
 }
@@ -54,11 +40,7 @@ Error about(const project::FaultRecord& fault, const Error& error) {
 project::MeshRecord mesh_record(const survey::Geometry& survey, const project::FaultRecord& fault,
                                 std::span<const survey::Pillar> stored, const pillars::FaultMesh& mesh,
                                 const TriangulateOptions& options) {
-  // A picked node keeps its position as picked; mapping it to index space and back would round it.
-  std::unordered_map<std::int64_t, survey::WorldPoint> picked;
-  for (const survey::Pillar& pillar : stored) {
-    for (const survey::PillarNode& node : pillar.nodes) picked.emplace(node.id, node.position);
-  }
+  const std::vector<survey::WorldPoint> places = pillars::world_vertices(survey, stored, mesh);
   project::MeshRecord record;
   record.revision = fault.revision;
   record.algorithm = kAlgorithm;
@@ -66,13 +48,14 @@ project::MeshRecord mesh_record(const survey::Geometry& survey, const project::F
       nlohmann::json{{"detail", options.detail}, {"max_edge", options.max_edge}, {"tie", options.tie}}.dump();
   record.chart = packed(mesh.chart);
   record.vertices.reserve(mesh.vertices.size());
-  for (const pillars::MeshVertex& vertex : mesh.vertices) {
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    const pillars::MeshVertex& vertex = mesh.vertices[n];
     project::MeshVertex out;
     const bool on_pillar = vertex.kind == pillars::MeshVertex::Kind::kPillar;
     out.kind = on_pillar ? project::MeshVertex::Owner::kPillar : project::MeshVertex::Owner::kPanel;
     out.owner = vertex.owner;
     out.n = vertex.n;
-    out.position = vertex.node_id >= 0 ? picked.at(vertex.node_id) : survey.world_of(vertex.position);
+    out.position = places[n];
     record.vertices.push_back(out);
   }
   record.faces.reserve(mesh.faces.size());
@@ -118,7 +101,7 @@ project::MeshRecord mesh_of_fault(const project::Project& project, const project
   const std::vector<survey::Pillar> stored = project.pillars(fault.id);
   try {
     const pillars::FaultMesh mesh =
-        pillars::triangulate(inputs(survey, stored), {options.detail, options.max_edge, options.tie},
+        pillars::triangulate(pillars::inputs_of(survey, stored), {options.detail, options.max_edge, options.tie},
                              options.rechart ? std::nullopt : stored_chart(project, fault), job);
     if (notes != nullptr) *notes = mesh.notes;
     return mesh_record(survey, fault, stored, mesh, options);
@@ -156,7 +139,7 @@ std::int64_t interpolate_fault(project::Project& project, const project::FaultRe
     how.every_lines = options.every;
     how.tolerance = options.tolerance;
     const pillars::Interpolation made =
-        pillars::interpolate(inputs(survey, picked), how, stored_chart(project, fault), job);
+        pillars::interpolate(pillars::inputs_of(survey, picked), how, stored_chart(project, fault), job);
     project.edit("Interpolate pillars of " + fault.name, [&](project::Interpretation& picks) {
       for (const std::int64_t pillar : former) picks.delete_pillar(pillar);
       for (const pillars::InterpolatedPillar& one : made.pillars) {
@@ -201,7 +184,7 @@ void follow_parents(project::Project& project) {
     for (const survey::Pillar& child : children)
       parents.push_back({child.parent_a, child.parent_b, child.parameter});
     const pillars::Interpolation made =
-        pillars::regenerate(inputs(survey, picked), parents, {}, unpacked(fault.chart), {});
+        pillars::regenerate(pillars::inputs_of(survey, picked), parents, {}, unpacked(fault.chart), {});
     std::vector<std::vector<survey::WorldPoint>> lines;
     for (const pillars::InterpolatedPillar& one : made.pillars) {
       std::vector<survey::WorldPoint>& line = lines.emplace_back();

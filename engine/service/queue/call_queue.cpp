@@ -6,7 +6,7 @@
 
 namespace footwall::service {
 
-CallQueue::CallQueue(std::size_t most) : most_(most) {}
+CallQueue::CallQueue(std::size_t most, std::uint64_t first_id) : most_(most), last_id_(first_id) {}
 
 void CallQueue::add(std::shared_ptr<Call> call, Calls& to) {
   {
@@ -71,18 +71,37 @@ std::vector<CallQueue::Entry> CallQueue::entries() const {
   return all;
 }
 
-bool CallQueue::cancel(std::uint64_t id) {
-  const std::scoped_lock lock(mutex_);
-  const auto is_it = [&](const std::shared_ptr<Call>& call) { return call && call->id() == id; };
-  std::shared_ptr<Call> found;
-  if (is_it(running_)) found = running_;
-  for (const Calls* calls : {&waiting_, &reads_}) {
-    const auto at = std::find_if(calls->begin(), calls->end(), is_it);
-    if (at != calls->end()) found = *at;
+bool CallQueue::cancel_where(const std::function<bool(const Call&)>& is_it) {
+  std::shared_ptr<Call> waited;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (running_ && is_it(*running_)) {
+      running_->context().cancel();
+      return true;
+    }
+    for (Calls* calls : {&waiting_, &reads_}) {
+      const auto at = std::find_if(calls->begin(), calls->end(),
+                                   [&](const std::shared_ptr<Call>& call) { return is_it(*call); });
+      if (at == calls->end()) continue;
+      waited = std::move(*at);
+      calls->erase(at);
+      break;
+    }
   }
-  // One that waits is failed when its turn comes, without a word to the ranks.
-  if (found) found->context().cancel();
-  return found != nullptr;
+  if (!waited) return false;
+  // It takes no place any longer, and the ranks never hear of it.
+  waited->context().cancel();
+  waited->finish(Error(ErrorCode::kCancelled, "cancelled while it waited"));
+  return true;
+}
+
+bool CallQueue::cancel(std::uint64_t id) {
+  return cancel_where([id](const Call& call) { return call.id() == id; });
+}
+
+bool CallQueue::cancel(const Call& wanted) {
+  wanted.context().cancel();
+  return cancel_where([&](const Call& call) { return &call == &wanted; });
 }
 
 void CallQueue::close(const Error& why) {

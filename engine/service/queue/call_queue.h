@@ -15,8 +15,9 @@ namespace footwall::service {
 
 class CallQueue {
  public:
-  // most: waiting calls, beyond which push() refuses.
-  explicit CallQueue(std::size_t most = 256);
+  // most: waiting calls, beyond which push() refuses. Ids grow from first_id + 1: queues of one engine whose
+  // ids must not meet start apart.
+  explicit CallQueue(std::size_t most = 256, std::uint64_t first_id = 0);
 
   // From any thread. Throws Error kEngine where the queue is closed (the engine ends), kMemory where too many
   // wait. A call may be pushed again after its command was finished (Live).
@@ -39,14 +40,18 @@ class CallQueue {
     Call::State state;
   };
   std::vector<Entry> entries() const;
-  // Cancels a call, waiting or running; false where there is none of that id.
+  // Cancels a call, waiting or running; false where there is none of that id. One that waits is finished at
+  // once, on the calling thread.
   bool cancel(std::uint64_t id);
+  // The same for a call, whether it has an id yet or not.
+  bool cancel(const Call& call);
   // No more calls are taken; those that wait are failed with `why`, the running one is cancelled.
   void close(const Error& why);
 
  private:
   using Calls = std::deque<std::shared_ptr<Call>>;
   void add(std::shared_ptr<Call> call, Calls& to);
+  bool cancel_where(const std::function<bool(const Call&)>& is_it);
 
   std::size_t most_;
   mutable std::mutex mutex_;

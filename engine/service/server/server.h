@@ -3,6 +3,7 @@
 // Who may call: whoever has the token (metadata "footwall-token", compared in constant time). A call without
 // it gets UNAUTHENTICATED, whatever its method, known or not.
 #pragma once
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -13,6 +14,25 @@
 
 namespace footwall::service {
 
+// The name that certificates are made for, beside localhost: what clients take for the engine's, whatever host
+// it runs on.
+inline constexpr const char* kServerName = "footwall-engine";
+
+// What strangers and slow clients may use up.
+struct ServerLimits {
+  std::size_t connections = 256;
+  std::size_t calls = 256;
+  int calls_of_connection = 64;
+  int message_bytes = 64 << 20;
+  int header_bytes = 8 << 10;
+  std::chrono::milliseconds handshake{10'000};
+  std::chrono::milliseconds reading{5000};   // a client that takes nothing of an answer
+  std::chrono::milliseconds asking{30'000};  // one that opens a call and says nothing
+  // Calls without the token that are answered at once; of more, the answers wait.
+  double failures_burst = 50;
+  double failures_per_second = 50;
+};
+
 struct ServerOptions {
   // "unix:PATH": a socket that is made with mode 0600 in a folder that is this user's alone. "tcp:HOST:PORT":
   // TLS, with the certificate in `certificates`, made on first use; port 0: any.
@@ -21,11 +41,13 @@ struct ServerOptions {
   std::filesystem::path certificates;  // a private folder for key and certificate; unused with unix:
   std::filesystem::path scratch;       // a private folder for the files of RunTask
   std::string version;                 // for Status
+  ServerLimits limits;
 };
 
 class Server {
  public:
-  // Begins to serve. queue, status: used until the end; `shutdown` is called, once, by a client's Shutdown.
+  // Begins to serve. queue, status: used until the end; `shutdown` is called, once, by a client's Shutdown, on a
+  // thread of the server, which it must not end.
   // Throws Error kUsage (listen), kIo, kEngine (the address is taken ...).
   Server(const ServerOptions& options, CallQueue& queue, std::function<ResidentStatus()> status,
          std::function<void()> shutdown);
