@@ -1,5 +1,6 @@
 #include "engine/service/server/server.h"
 
+#include <grpc/grpc.h>
 #include <grpc/support/log.h>
 #include <grpcpp/resource_quota.h>
 #include <grpcpp/server.h>
@@ -104,6 +105,9 @@ Server::State::State(const ServerOptions& options, CallQueue& queue, std::functi
 }
 
 void Server::State::start(const ServerLimits& limits) {
+  // One more than is ever given back: when nobody uses gRPC any longer it joins its threads, of which one may
+  // sleep for ten seconds.
+  grpc_init();
   // Strangers' failed handshakes would fill the log.
   if (std::getenv("GRPC_VERBOSITY") == nullptr)
     gpr_set_log_verbosity(static_cast<gpr_log_severity>(GPR_LOG_SEVERITY_ERROR + 1));
