@@ -3,15 +3,44 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace footwall::service {
 
 CallQueue::CallQueue(std::size_t most, std::uint64_t first_id) : most_(most), last_id_(first_id) {}
 
+namespace {
+
+const Error& cancelled() {
+  static const Error kCancelled(ErrorCode::kCancelled, "cancelled", "nothing was changed");
+  return kCancelled;
+}
+
+}  // namespace
+
+CallQueue::Calls CallQueue::take_cancelled() {
+  Calls gone;
+  for (Calls* calls : {&waiting_, &reads_}) {
+    const auto is_left = [](const std::shared_ptr<Call>& call) { return !call->context().cancelled(); };
+    const auto at = std::stable_partition(calls->begin(), calls->end(), is_left);
+    gone.insert(gone.end(), std::make_move_iterator(at), std::make_move_iterator(calls->end()));
+    calls->erase(at, calls->end());
+  }
+  return gone;
+}
+
 void CallQueue::add(std::shared_ptr<Call> call, Calls& to) {
+  // Finished when the lock is gone: a call may ask the queue.
+  struct Finish {
+    Calls calls;
+    ~Finish() {
+      for (const auto& each : calls) each->finish(cancelled());
+    }
+  } gone;
   {
     const std::scoped_lock lock(mutex_);
     if (closed_) throw Error(*closed_);
+    if (waiting_.size() + reads_.size() >= most_) gone.calls = take_cancelled();
     if (waiting_.size() + reads_.size() >= most_) {
       throw Error(ErrorCode::kMemory, fmt::format("{} calls wait for the engine already", most_),
                   "wait for some of them, or cancel them");
@@ -91,7 +120,7 @@ bool CallQueue::cancel_where(const std::function<bool(const Call&)>& is_it) {
   if (!waited) return false;
   // It takes no place any longer, and the ranks never hear of it.
   waited->context().cancel();
-  waited->finish(Error(ErrorCode::kCancelled, "cancelled while it waited"));
+  waited->finish(cancelled());
   return true;
 }
 

@@ -41,7 +41,8 @@ class CallQueue {
   };
   std::vector<Entry> entries() const;
   // Cancels a call, waiting or running; false where there is none of that id. One that waits is finished at
-  // once, on the calling thread.
+  // once, on this thread; one whose own context was cancelled (its client has left) when its turn comes, or
+  // when its place is needed.
   bool cancel(std::uint64_t id);
   // The same for a call, whether it has an id yet or not.
   bool cancel(const Call& call);
@@ -52,6 +53,7 @@ class CallQueue {
   using Calls = std::deque<std::shared_ptr<Call>>;
   void add(std::shared_ptr<Call> call, Calls& to);
   bool cancel_where(const std::function<bool(const Call&)>& is_it);
+  Calls take_cancelled();  // those that wait
 
   std::size_t most_;
   mutable std::mutex mutex_;
