@@ -1,5 +1,5 @@
 // The MPI program: runs one batch job or scripted workload, makes one attribute volume, isosurface or
-// picture, on all ranks, or checks that they work together. Exit 0 done, 1 failed, 2 wrong usage, 75 told to
+// picture, on all ranks, serves clients, or checks that they work together. Exit 0 done, 1 failed, 2 wrong usage, 75 told to
 // make room (SIGTERM; run it again and it goes on), 130 cancelled; a failure is printed once.
 #include <signal.h>
 #include <sys/prctl.h>
@@ -11,6 +11,7 @@
 #include "app/footwall-engine/isosurface_command.h"
 #include "app/footwall-engine/render_command.h"
 #include "app/footwall-engine/running_job.h"
+#include "app/footwall-engine/serve_command.h"
 #include "app/footwall-engine/visible_command.h"
 #include "app/footwall-engine/workload_command.h"
 #include "engine/comm/environment.h"
@@ -46,7 +47,7 @@ int leave(const Communicator& world, const Error& error) {
   return code;
 }
 
-int run(const Communicator& world, int argc, char** argv) {
+int run(Communicator& world, int argc, char** argv) {
   CLI::App app("The computing engine of Footwall; started by footwall under mpirun.");
   app.require_subcommand(1);
   std::string job;
@@ -67,6 +68,7 @@ int run(const Communicator& world, int argc, char** argv) {
   footwall::app::IsosurfaceCommand isosurface(app);
   const footwall::app::RenderCommand render(app);
   const footwall::app::VisibleCommand visible(app);
+  footwall::app::ServeCommand serve(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -86,6 +88,8 @@ int run(const Communicator& world, int argc, char** argv) {
     render.run(world);
   } else if (visible.parsed()) {
     visible.run(world);
+  } else if (serve.parsed()) {
+    serve.run(world);
   } else {
     footwall::app::batch(world, job, options);
   }
@@ -101,7 +105,7 @@ int main(int argc, char** argv) {
   int code = 1;
   try {
     const footwall::comm::Environment environment(argc, argv);
-    const Communicator world(MPI_COMM_WORLD);
+    Communicator world(MPI_COMM_WORLD);
     // `check` is there to tell what is wrong with the launcher.
     const bool asked_for_a_job = argc < 2 || std::string_view(argv[1]) != "check";
     if (asked_for_a_job) footwall::session::refuse_lonely_rank(world.size());

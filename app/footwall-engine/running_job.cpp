@@ -12,13 +12,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-void print_line(const nlohmann::json& json) {
-  const std::string line = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  // One write, so that lines of several writers do not mix. Nobody may be listening any more: that is no
-  // error.
-  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
-}
-
 // A line for every hundredth and for every new phase, at most ten a second.
 JobContext::Listener progress_printer() {
   return [last = -1.0, phase = std::string(), time = Clock::time_point()](const Progress& progress) mutable {
@@ -49,6 +42,12 @@ void stop_running_job(int number) {
 }
 
 }  // namespace
+
+void print_line(const nlohmann::json& json) {
+  const std::string line = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  // One write, so that lines of several writers do not mix.
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
+}
 
 void print_error(const Error& error) {
   print_line({{"error",

@@ -1,6 +1,8 @@
 // The one job that this process runs: its cancel by signals, its progress and errors as JSON lines on
 // standard error.
 #pragma once
+#include <nlohmann/json_fwd.hpp>
+
 #include "engine/comm/communicator.h"
 #include "storage/base/error.h"
 #include "storage/base/job_context.h"
@@ -19,6 +21,8 @@ const JobContext& running_job(const comm::Communicator& world);
 // Whether this rank got SIGTERM: how batch systems ask for their processors, before they kill.
 bool told_to_make_room();
 
+// One line on standard error, in one write. Nobody may be listening any more: that is no error.
+void print_line(const nlohmann::json& json);
 // One line {"error": {code, message, hint}} on standard error.
 void print_error(const Error& error);
 

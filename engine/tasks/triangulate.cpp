@@ -100,9 +100,9 @@ project::MeshRecord mesh_of_fault(const project::Project& project, const project
   const survey::Geometry survey = required_survey(project, "triangulation");
   const std::vector<survey::Pillar> stored = project.pillars(fault.id);
   try {
-    const pillars::FaultMesh mesh =
-        pillars::triangulate(pillars::inputs_of(survey, stored), {options.detail, options.max_edge, options.tie},
-                             options.rechart ? std::nullopt : stored_chart(project, fault), job);
+    const pillars::FaultMesh mesh = pillars::triangulate(
+        pillars::inputs_of(survey, stored), {options.detail, options.max_edge, options.tie},
+        options.rechart ? std::nullopt : stored_chart(project, fault), job);
     if (notes != nullptr) *notes = mesh.notes;
     return mesh_record(survey, fault, stored, mesh, options);
   } catch (const Error& error) {

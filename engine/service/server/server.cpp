@@ -16,7 +16,7 @@
 #include "engine/service/server/detail/certificate.h"
 #include "engine/service/server/detail/door.h"
 #include "engine/service/server/detail/listener.h"
-#include "engine/service/server/detail/private_folder.h"
+#include "engine/service/server/private_folder.h"
 #include "engine/service/server/requests/pillar_request.h"
 #include "engine/service/server/requests/services.h"
 
@@ -43,6 +43,7 @@ void limit(grpc::ServerBuilder& builder, const ServerLimits& limits) {
   set(GRPC_ARG_KEEPALIVE_TIME_MS, 10'000);
   set(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 5'000);
   set(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  set(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);  // any number
   set(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 500);
 }
 
@@ -114,8 +115,8 @@ void Server::State::start(const ServerLimits& limits) {
   grpc::ServerBuilder builder;
   limit(builder, limits);
   builder.RegisterCallbackGenericService(&door);
-  // Connections are taken here and handed over: gRPC's own listener ends for good when the process has no more
-  // files, and takes as many as there come.
+  // Connections are taken here and handed over: gRPC's own listener ends for good when the process has no
+  // more files, and takes as many as there come.
   acceptor = builder.experimental().AddExternalConnectionAcceptor(
       grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD, credentials_of(certificate));
   server = builder.BuildAndStart();
@@ -130,8 +131,8 @@ void Server::State::take_connections() {
   for (;;) {
     std::array<pollfd, 2> wait{{{bell.descriptor(), POLLIN, 0}, {listener.descriptor(), POLLIN, 0}}};
     // A connection that cannot be taken now stays: it is tried again at the next tick.
-    const auto pause = std::chrono::duration_cast<std::chrono::milliseconds>(
-        next_tick - std::chrono::steady_clock::now());
+    const auto pause =
+        std::chrono::duration_cast<std::chrono::milliseconds>(next_tick - std::chrono::steady_clock::now());
     ::poll(wait.data(), full ? 1 : 2, static_cast<int>(std::max<std::int64_t>(pause.count(), 0)) + 1);
     if (wait[0].revents != 0) return;
     full = wait[1].revents != 0;

@@ -14,8 +14,8 @@
 
 namespace footwall::service {
 
-// The name that certificates are made for, beside localhost: what clients take for the engine's, whatever host
-// it runs on.
+// The name that certificates are made for, beside localhost: what clients take for the engine's, whatever
+// host it runs on.
 inline constexpr const char* kServerName = "footwall-engine";
 
 // What strangers and slow clients may use up.
@@ -46,9 +46,9 @@ struct ServerOptions {
 
 class Server {
  public:
-  // Begins to serve. queue, status: used until the end; `shutdown` is called, once, by a client's Shutdown, on a
-  // thread of the server, which it must not end.
-  // Throws Error kUsage (listen), kIo, kEngine (the address is taken ...).
+  // Begins to serve. queue, status: used until the end; `shutdown` is called, once, by a client's Shutdown,
+  // on a thread of the server, which it must not end. Throws Error kUsage (listen), kIo, kEngine (the address
+  // is taken ...).
   Server(const ServerOptions& options, CallQueue& queue, std::function<ResidentStatus()> status,
          std::function<void()> shutdown);
   // Ends the calls under way, at the latest after a second.

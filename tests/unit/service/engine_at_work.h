@@ -81,8 +81,8 @@ class StandInRanks {
 };
 
 struct EngineAtWork {
-  explicit EngineAtWork(StandInRanks::Work work = {}, ServerLimits limits = {}, std::size_t most_waiting = 256,
-                        const std::string& listen = {})
+  explicit EngineAtWork(StandInRanks::Work work = {}, ServerLimits limits = {},
+                        std::size_t most_waiting = 256, const std::string& listen = {})
       : queue(most_waiting), ranks(queue, std::move(work)) {
     ServerOptions options;
     options.listen = listen.empty() ? "unix:" + (folder / "socket").string() : listen;

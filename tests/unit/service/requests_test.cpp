@@ -110,9 +110,8 @@ TEST(Live, WhatIsNoLiveStreamIsRefused) {
 }
 
 TEST(Live, AFailureEndsTheStream) {
-  EngineAtWork engine([](const v1::Command&, Call&) {
-    throw Error(ErrorCode::kNotFound, "no volume abc", "open it");
-  });
+  EngineAtWork engine(
+      [](const v1::Command&, Call&) { throw Error(ErrorCode::kNotFound, "no volume abc", "open it"); });
   Context context;
   const auto live = engine.stub->Live(&context);
   v1::LiveRequest first = edit(1);
@@ -195,9 +194,10 @@ TEST(RunTask, RefusesWhatIsNoTask) {
     const TaskRun task = run(engine, inputs);
     return task.status.error_code() == grpc::StatusCode::INVALID_ARGUMENT && task.failure.code() == "invalid";
   };
-  for (const std::string& name : {std::string(), std::string(".."), std::string("../a"), std::string("/etc/a"),
-                                  std::string("a/b"), std::string(".hidden"), std::string("a\nb"),
-                                  std::string("a b"), std::string(101, 'a'), std::string("a\0b", 3)}) {
+  for (const std::string& name :
+       {std::string(), std::string(".."), std::string("../a"), std::string("/etc/a"), std::string("a/b"),
+        std::string(".hidden"), std::string("a\nb"), std::string("a b"), std::string(101, 'a'),
+        std::string("a\0b", 3)}) {
     EXPECT_TRUE(is_refused({task_of("batch"), piece_of(name, "x", true), start()})) << name;
   }
   EXPECT_TRUE(is_refused({}));

@@ -40,9 +40,11 @@ std::string all_that_is_told(const grpc::Status& status, const Context& context)
   std::string told = fmt::format("{} {} {}", static_cast<int>(status.error_code()), status.error_message(),
                                  status.error_details());
   for (const auto& [name, value] : context.GetServerInitialMetadata())
-    told += fmt::format(" {}={}", std::string(name.data(), name.size()), std::string(value.data(), value.size()));
+    told +=
+        fmt::format(" {}={}", std::string(name.data(), name.size()), std::string(value.data(), value.size()));
   for (const auto& [name, value] : context.GetServerTrailingMetadata())
-    told += fmt::format(" {}={}", std::string(name.data(), name.size()), std::string(value.data(), value.size()));
+    told +=
+        fmt::format(" {}={}", std::string(name.data(), name.size()), std::string(value.data(), value.size()));
   return told;
 }
 
@@ -52,9 +54,9 @@ TEST(ServerSafety, WithoutTheTokenEveryPathHasOneAnswer) {
   std::set<std::string> answers;
   for (const std::string& token : {std::string(), std::string("wrong"), kToken.substr(1), kToken + "0",
                                    std::string(kToken.size(), 'x')}) {
-    for (const char* path : {"/footwall.v1.Engine/Status", "/footwall.v1.Engine/Shutdown",
-                             "/footwall.v1.Engine/Nothing", "/", "/grpc.health.v1.Health/Check",
-                             "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo"}) {
+    for (const char* path :
+         {"/footwall.v1.Engine/Status", "/footwall.v1.Engine/Shutdown", "/footwall.v1.Engine/Nothing", "/",
+          "/grpc.health.v1.Health/Check", "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo"}) {
       Context context(token);
       const grpc::Status status = ask(channel, path, context);
       EXPECT_EQ(status.error_code(), grpc::StatusCode::UNAUTHENTICATED) << path << " " << token;
@@ -281,8 +283,7 @@ TEST(ServerSafety, TcpHasTlsWithTheEnginesCertificate) {
   v1::CloseVolumeReply reply;
   EXPECT_TRUE(engine.stub->CloseVolume(&context, {}, &reply).ok());
   Context stranger("wrong");
-  EXPECT_EQ(engine.stub->CloseVolume(&stranger, {}, &reply).error_code(),
-            grpc::StatusCode::UNAUTHENTICATED);
+  EXPECT_EQ(engine.stub->CloseVolume(&stranger, {}, &reply).error_code(), grpc::StatusCode::UNAUTHENTICATED);
   // Without TLS nothing is told.
   const auto plain = grpc::CreateChannel(address.substr(4), grpc::InsecureChannelCredentials());
   Context open;
@@ -353,7 +354,8 @@ TEST(ServerSafety, TheCertificateStaysAndIsPrivate) {
   EXPECT_EQ(made.fingerprint, again.fingerprint);
   EXPECT_EQ(made.key, again.key);
   for (const char* name : {"key.pem", "certificate.pem"}) {
-    EXPECT_EQ(std::filesystem::status(folder / "c" / name).permissions(), std::filesystem::perms(0600)) << name;
+    EXPECT_EQ(std::filesystem::status(folder / "c" / name).permissions(), std::filesystem::perms(0600))
+        << name;
   }
   EXPECT_NE(engine_certificate(folder / "d").fingerprint, made.fingerprint);
   std::filesystem::copy_file(folder / "d" / "key.pem", folder / "c" / "key.pem",

@@ -16,7 +16,7 @@
 #include <ctime>
 #include <memory>
 
-#include "engine/service/server/detail/private_folder.h"
+#include "engine/service/server/private_folder.h"
 #include "engine/service/server/server.h"
 #include "storage/base/error.h"
 #include "storage/base/partial_file.h"

@@ -15,7 +15,7 @@
 #include <memory>
 #include <optional>
 
-#include "engine/service/server/detail/private_folder.h"
+#include "engine/service/server/private_folder.h"
 #include "storage/base/error.h"
 #include "storage/base/text.h"
 
@@ -81,7 +81,8 @@ Tcp parts_of(const std::string& words) {
 }
 
 int bound(const addrinfo& where) {
-  const int made = ::socket(where.ai_family, where.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, where.ai_protocol);
+  const int made =
+      ::socket(where.ai_family, where.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, where.ai_protocol);
   if (made < 0) return -1;
   // Connections inherit both: small messages are not held back, and an engine can start where one just ended.
   const int on = 1;
@@ -136,7 +137,8 @@ void Listener::listen_unix(const std::string& path) {
   struct stat facts = {};
   // The folder keeps others out until the mode is set.
   if (::bind(made, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 ||
-      ::chmod(path.c_str(), 0600) != 0 || ::listen(made, kBacklog) != 0 || ::lstat(path.c_str(), &facts) != 0) {
+      ::chmod(path.c_str(), 0600) != 0 || ::listen(made, kBacklog) != 0 ||
+      ::lstat(path.c_str(), &facts) != 0) {
     const Error error = io_error("listen at", path, errno);
     ::close(made);
     throw error;
@@ -153,7 +155,8 @@ void Listener::listen_tcp(const std::string& host, const std::string& port) {
   wanted.ai_flags = AI_PASSIVE;
   addrinfo* list = nullptr;
   if (const int code = ::getaddrinfo(host.c_str(), port.c_str(), &wanted, &list); code != 0) {
-    throw Error(ErrorCode::kUsage, fmt::format("{} is no host of this machine: {}", host, ::gai_strerror(code)),
+    throw Error(ErrorCode::kUsage,
+                fmt::format("{} is no host of this machine: {}", host, ::gai_strerror(code)),
                 "127.0.0.1 serves this machine alone, 0.0.0.0 all networks");
   }
   const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> found(list, ::freeaddrinfo);

@@ -1,4 +1,5 @@
-// Calls without the token. All get one answer, whatever they ask for; where there are many, they get it later.
+// Calls without the token. All get one answer, whatever they ask for; where there are many, they get it
+// later.
 #pragma once
 #include <grpcpp/generic/async_generic_service.h>
 

@@ -1,7 +1,7 @@
 // One call over gRPC: bytes from the client go to its request, the request's answer to the client.
 //
-// What is written waits in an outbox; a writer waits while the outbox is full. A client that takes nothing for
-// `patience` is given up, so that it holds neither the dispatcher nor memory.
+// What is written waits in an outbox; a writer waits while the outbox is full. A client that takes nothing
+// for `patience` is given up, so that it holds neither the dispatcher nor memory.
 #pragma once
 #include <grpcpp/generic/async_generic_service.h>
 

@@ -32,14 +32,10 @@ struct Row {
 
 // Those whose requests are not simply commands of the ranks.
 constexpr Row kRows[] = {
-    {"Cancel", cancel_request},
-    {"Interpolate", make<PillarRequest>},
-    {"Live", make<LiveRequest>},
-    {"ReadBox", queued<QueuedRequest::Turn::kBetweenSlices>},
-    {"RunTask", make<TaskRequest>},
-    {"Shutdown", shutdown_request},
-    {"Status", status_request},
-    {"Triangulate", make<PillarRequest>},
+    {"Cancel", cancel_request},     {"Interpolate", make<PillarRequest>},
+    {"Live", make<LiveRequest>},    {"ReadBox", queued<QueuedRequest::Turn::kBetweenSlices>},
+    {"RunTask", make<TaskRequest>}, {"Shutdown", shutdown_request},
+    {"Status", status_request},     {"Triangulate", make<PillarRequest>},
 };
 
 const MethodDescriptor* method_of(std::string_view path) {

@@ -8,7 +8,7 @@ namespace footwall::service {
 class QueuedRequest final : public RankCall {
  public:
   enum class Turn : std::uint8_t {
-    kInOrder,      // after those that came before
+    kInOrder,       // after those that came before
     kBetweenSlices  // reads that no other rank takes part in
   };
   QueuedRequest(const google::protobuf::MethodDescriptor& method, std::shared_ptr<Services> services,

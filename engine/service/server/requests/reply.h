@@ -1,5 +1,5 @@
-// The way back to a client, as requests see it. No RPC in here: the server has it over its streams, tests have
-// their own.
+// The way back to a client, as requests see it. No RPC in here: the server has it over its streams, tests
+// have their own.
 #pragma once
 #include <google/protobuf/message.h>
 
@@ -14,8 +14,8 @@ namespace footwall::service {
 class Reply {
  public:
   virtual ~Reply() = default;
-  // One message. Blocks while the client is behind; throws Error kCancelled once it has gone, was too slow, or
-  // the job was cancelled.
+  // One message. Blocks while the client is behind; throws Error kCancelled once it has gone, was too slow,
+  // or the job was cancelled.
   virtual void send(const google::protobuf::Message& message, const JobContext& job) = 0;
   // One that may be lost, and is, where the client is behind.
   virtual void hint(const google::protobuf::Message& message) noexcept = 0;

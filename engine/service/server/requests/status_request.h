@@ -9,7 +9,8 @@ namespace footwall::service {
 class ImmediateRequest final : public Request {
  public:
   // answer: fills the method's reply from its request.
-  using Answer = std::function<void(const google::protobuf::Message& request, google::protobuf::Message& reply)>;
+  using Answer =
+      std::function<void(const google::protobuf::Message& request, google::protobuf::Message& reply)>;
   // after: when the reply is on its way.
   ImmediateRequest(const google::protobuf::MethodDescriptor& method, std::shared_ptr<Reply> reply,
                    Answer answer, std::function<void()> after = {});

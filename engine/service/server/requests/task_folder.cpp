@@ -19,8 +19,8 @@ class Appended {
  public:
   Appended(const std::filesystem::path& path, bool is_new)
       : path_(path.string()),
-        file_(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOFOLLOW | (is_new ? O_CREAT | O_EXCL : 0),
-                     0600)) {
+        file_(::open(path_.c_str(),
+                     O_WRONLY | O_APPEND | O_CLOEXEC | O_NOFOLLOW | (is_new ? O_CREAT | O_EXCL : 0), 0600)) {
     if (file_ < 0) throw io_error("write", path_, errno);
   }
   ~Appended() { ::close(file_); }

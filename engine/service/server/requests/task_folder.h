@@ -30,12 +30,13 @@ class TaskFolder {
 
  private:
   std::filesystem::path path_;
-  std::string open_;            // the file that pieces come for
+  std::string open_;  // the file that pieces come for
   std::set<std::string> whole_;
   std::int64_t bytes_ = 0;
 };
 
-// Whether a file name is letters, digits, "-", "_" and ".", begins with none of ".", and has 1 to 100 of them.
+// Whether a file name is letters, digits, "-", "_" and ".", begins with none of ".", and has 1 to 100 of
+// them.
 bool is_plain_name(const std::string& name);
 
 }  // namespace footwall::service

@@ -1,4 +1,4 @@
-#include "engine/service/server/detail/private_folder.h"
+#include "engine/service/server/private_folder.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
