@@ -17,6 +17,9 @@ using extract::FaceIdentity;
 using survey::LatticePoint;
 using survey::LatticeTriangle;
 
+// Between two looks at cancel.
+constexpr int kFacesPerLook = 4096;
+
 // Of one face. Summed over all, without order: so it follows changes one by one.
 std::uint64_t hash_of(const FaceIdentity& name, const LatticeTriangle& triangle) {
   std::array<std::int64_t, 12> words{name.fault, name.owner, name.n};
@@ -92,7 +95,7 @@ void FaceModel::set(const FaceIdentity& name, const std::optional<LatticeTriangl
   }
 }
 
-FaceModel::Change FaceModel::apply(const v1::EditBatch& batch) {
+FaceModel::Change FaceModel::apply(const v1::EditBatch& batch, const JobContext& job) {
   Change change;
   change.edit_before_ = edit_;
   if (batch.edit() != 0 && batch.edit() <= edit_) {
@@ -100,7 +103,10 @@ FaceModel::Change FaceModel::apply(const v1::EditBatch& batch) {
                 "number edits upwards, or give 0 for the next number");
   }
   try {
-    for (const v1::Edit& edit : batch.edits()) apply(edit, change);
+    for (const v1::Edit& edit : batch.edits()) {
+      job.check();
+      apply(edit, job, change);
+    }
   } catch (...) {
     undo(std::move(change));
     throw;
@@ -109,7 +115,10 @@ FaceModel::Change FaceModel::apply(const v1::EditBatch& batch) {
   return change;
 }
 
-void FaceModel::apply(const v1::Edit& edit, Change& change) {
+void FaceModel::apply(const v1::Edit& edit, const JobContext& job, Change& change) {
+  auto look = [&, n = 0]() mutable {
+    if (++n % kFacesPerLook == 0) job.check();
+  };
   switch (edit.what_case()) {
     case v1::Edit::kMesh: {
       const auto operations = mesh::decode(std::as_bytes(std::span(edit.mesh())));
@@ -122,12 +131,14 @@ void FaceModel::apply(const v1::Edit& edit, Change& change) {
     }
     case v1::Edit::kPut:
       for (const Face& face : faces_from(edit.put())) {
+        look();
         check(face);
         set(extract::identity_of(face), face.triangle, change);
       }
       break;
     case v1::Edit::kRemove:
       for (const FaceIdentity& name : names_from(edit.remove())) {
+        look();
         if (name.fault < 0) throw refused(name, "it belongs to a mesh", "remove it by a mesh operation");
         if (!faces_.contains(name)) throw refused(name, "there is no such face", "read the model again");
         set(name, std::nullopt, change);
@@ -137,6 +148,7 @@ void FaceModel::apply(const v1::Edit& edit, Change& change) {
       const std::int64_t fault = edit.replace().fault();
       Faces now;
       for (const Face& face : faces_from(edit.replace().faces())) {
+        look();
         check(face);
         const FaceIdentity name = extract::identity_of(face);
         if (face.fault != fault)
@@ -155,7 +167,10 @@ void FaceModel::apply(const v1::Edit& edit, Change& change) {
         if (!now.contains(at->first)) gone.push_back(at->first);
       }
       for (const FaceIdentity& name : gone) set(name, std::nullopt, change);
-      for (const auto& [name, triangle] : now) set(name, triangle, change);
+      for (const auto& [name, triangle] : now) {
+        look();
+        set(name, triangle, change);
+      }
       break;
     }
     case v1::Edit::kClear:

@@ -10,6 +10,7 @@
 
 #include "engine/extract/face_changes.h"
 #include "engine/mesh/model.h"
+#include "storage/base/job_context.h"
 
 namespace footwall::v1 {
 class Edit;
@@ -54,8 +55,9 @@ class FaceModel {
   // All edits of the batch in their order, or none: throws Error kInvalid that names the face or mesh, and
   // the edit number where it is not newer than edit(); 0 stands for the next one. A position of -2^23 voxels
   // is refused, as by survey::Lattice. Takes time in proportion to the batch, but a mesh operation other than
-  // MOVE-VERTEX also copies its mesh. Not collective.
-  Change apply(const v1::EditBatch& batch);
+  // MOVE-VERTEX also copies its mesh. Throws
+  // kCancelled, looked at every few thousand faces. Not collective.
+  Change apply(const v1::EditBatch& batch, const JobContext& job = {});
   // Takes back the newest change that was not taken back.
   void undo(Change change);
 
@@ -65,7 +67,7 @@ class FaceModel {
   std::uint64_t hash() const;
 
  private:
-  void apply(const v1::Edit& edit, Change& change);
+  void apply(const v1::Edit& edit, const JobContext& job, Change& change);
   void apply(const mesh::Operation& operation, Change& change);
   void set(const extract::FaceIdentity& name, const std::optional<survey::LatticeTriangle>& now,
            Change& change);

@@ -38,10 +38,10 @@ struct Applied {
   }
 };
 
-void apply(const v1::LiveStep& step, FaceModel& model, Applied& applied) {
+void apply(const v1::LiveStep& step, const JobContext& job, FaceModel& model, Applied& applied) {
   for (const v1::EditBatch& batch : step.batches()) {
     try {
-      applied.changes.push_back(model.apply(batch));
+      applied.changes.push_back(model.apply(batch, job));
     } catch (const Error& error) {
       if (error.code() != ErrorCode::kInvalid && error.code() != ErrorCode::kFormat) throw;
       applied.refusals.push_back({batch.edit(), error});
@@ -97,7 +97,7 @@ void live(ResidentState& state, const v1::Command& command, const Send& send, co
         throw Error(ErrorCode::kUnsupported, "offset is not computed while faces are moved",
                     "leave offset out, and extract with it when the edit is done");
       }
-      apply(step, state.model, applied);
+      apply(step, job, state.model, applied);
       touched = true;
       const auto names = applied.names();
       state.extractions.touch(names, state.model.faces().size());

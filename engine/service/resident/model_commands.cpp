@@ -15,7 +15,7 @@ void edit_model(ResidentState& state, const v1::Command& command, const Send& se
   try {
     state.world.collectively([&] {
       job.check();
-      change = state.model.apply(command.edit_model());
+      change = state.model.apply(command.edit_model(), job);
     });
     state.world.collectively([&] {
       if (state.world.rank() != 0) return;

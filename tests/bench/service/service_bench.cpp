@@ -86,6 +86,51 @@ void choose(v1::ExtractOptions& options) {
   for (const char* each : {"count", "mean", "variance", "contrast"}) options.add_compute(each);
 }
 
+void bench_idle(const std::string& what, const Resident& resident) {
+  const auto ranks = resident.status().ranks;
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  const std::vector<double> before = processor_seconds(ranks);
+  const double begun = now();
+  std::this_thread::sleep_for(std::chrono::seconds(10));
+  const std::vector<double> after = processor_seconds(ranks);
+  const double seconds = now() - begun;
+  std::string shares;
+  for (std::size_t n = 0; n < before.size(); ++n)
+    shares += fmt::format("{:.3f} % ", 100 * (after[n] - before[n]) / seconds);
+  print(what, shares);
+}
+
+// Collective.
+void serve(Resident& resident, const std::function<void(CallQueue&)>& as_client, bool is_first) {
+  if (!is_first) {
+    resident.serve(nullptr);
+    return;
+  }
+  CallQueue queue;
+  std::thread thread([&] {
+    try {
+      as_client(queue);
+    } catch (const std::exception& error) {
+      std::printf("failed: %s\n", error.what());
+    }
+    queue.close(Error(ErrorCode::kEngine, "the benchmark is over"));
+  });
+  resident.serve(&queue);
+  thread.join();
+}
+
+void write_hashed(const std::filesystem::path& path, const survey::Index& dims) {
+  volume::WriteOptions how;
+  how.geometry.inlines = {1, 1, dims[0]};
+  how.geometry.crosslines = {1, 1, dims[1]};
+  how.geometry.samples = dims[2];
+  volume::write_volume(path, how,
+                       [&](const survey::Box& box, std::span<float> values, std::span<std::uint8_t>) {
+                         tasks::fill_hashed(dims, 1, box, values);
+                       },
+                       {});
+}
+
 class Bench {
  public:
   Bench(CallQueue& queue, const Resident& resident) : queue_(queue), resident_(resident) {}
@@ -124,20 +169,19 @@ class Bench {
     });
   }
 
-  void moves(int count) {
+  void moves(int vertices, int count) {
+    const auto ranks = resident_.status().ranks;
+    const std::vector<double> before = processor_seconds(ranks);
     std::vector<double> seconds;
     dirty_ = 0;
-    for (int n = 0; n < count; ++n) seconds.push_back(move(1));
-    print(fmt::format("one vertex moved ({:.1f} faces)", static_cast<double>(dirty_) / count),
-          spread(seconds));
-  }
-
-  void many_dirty() {
-    std::vector<double> seconds;
-    constexpr int kVertices = 196;
-    dirty_ = 0;
-    for (int n = 0; n < 100; ++n) seconds.push_back(move(kVertices));
-    print(fmt::format("{} vertices moved ({} faces)", kVertices, dirty_ / 100), spread(seconds));
+    for (int n = 0; n < count; ++n) seconds.push_back(move(vertices));
+    const std::vector<double> after = processor_seconds(ranks);
+    print(fmt::format("vertices moved: {} ({} faces)", vertices, dirty_ / count), spread(seconds));
+    // Of all threads, waiting for the other ranks included.
+    std::string each;
+    for (std::size_t n = 0; n < before.size(); ++n)
+      each += fmt::format("{:.3f} ms ", 1e3 * (after[n] - before[n]) / count);
+    print("  processor time of each rank", each);
   }
 
   void memory(int count) {
@@ -148,36 +192,40 @@ class Bench {
           fmt::format("{:.1f} MiB before, {:.1f} MiB after", before / (1 << 20), after / (1 << 20)));
   }
 
-  void idle() {
-    const auto ranks = resident_.status().ranks;
-    std::this_thread::sleep_for(std::chrono::seconds(1));
-    const std::vector<double> before = processor_seconds(ranks);
-    const double begun = now();
-    std::this_thread::sleep_for(std::chrono::seconds(10));
-    const std::vector<double> after = processor_seconds(ranks);
-    const double seconds = now() - begun;
-    std::string shares;
-    for (std::size_t n = 0; n < before.size(); ++n)
-      shares += fmt::format("{:.3f} % ", 100 * (after[n] - before[n]) / seconds);
-    print("of a core, idle, each rank", shares);
+  void cancels(const std::filesystem::path& large) {
+    bench_cancel("cancel of an extraction", extract_all(), {});
+    v1::Command open_it;
+    open_it.mutable_open_volume()->mutable_volume()->set_path(large.string());
+    bench_cancel("cancel of opening 256 MiB", open_it, [&](const google::protobuf::Message& reply) {
+      v1::OpenVolumeReply opened;
+      opened.CopyFrom(reply);
+      large_ = opened.opened().volume();
+    });
   }
 
-  void cancels() { bench_cancel("cancel of an extraction", extract_all()); }
-
   // From cancel() to the call's end, at any moment of it.
-  void bench_cancel(const std::string& what, const v1::Command& command) {
-    const double whole = timed(queue_, command);
+  void bench_cancel(const std::string& what, const v1::Command& command,
+                    const std::function<void(const google::protobuf::Message&)>& on_reply) {
+    const double whole = timed(queue_, command, on_reply);
     std::mt19937 random(3);
     std::vector<double> seconds;
     for (int n = 0; n < 40; ++n) {
+      if (!large_.empty()) {
+        v1::Command close;
+        close.mutable_close_volume()->set_volume(large_);
+        timed(queue_, close);
+        large_.clear();
+      }
       const auto call = std::make_shared<TimedCall>(command);
+      call->on_reply = on_reply;
       queue_.push(call);
-      std::this_thread::sleep_for(std::chrono::duration<double>(whole * (random() % 1000) * 1e-3));
+      std::this_thread::sleep_for(
+          std::chrono::duration<double>(whole * static_cast<double>(random() % 1000) * 1e-3));
       const double begun = now();
       queue_.cancel(call->id());
       if (call->wait_until_over()) seconds.push_back(now() - begun);
     }
-    print(fmt::format("{} of {:.0f} ms", what, whole * 1e3), spread(seconds));
+    print(fmt::format("{} in {:.0f} ms", what, whole * 1e3), spread(seconds));
   }
 
  private:
@@ -192,6 +240,7 @@ class Bench {
   const Resident& resident_;
   Model model_;
   std::string volume_;
+  std::string large_;  // open, of the benchmark of cancels
   std::int64_t dirty_ = 0;
 };
 
@@ -211,38 +260,33 @@ void run(comm::Communicator& world, int argc, char** argv) {
 
   ResidentOptions options;
   options.folder = folder;
-  Resident resident(world, options);
-  if (world.rank() != 0) {
-    resident.serve(nullptr);
-    return;
+  const bool is_first = world.rank() == 0;
+  {
+    options.host_of = apart;
+    Resident resident(world, options);
+    serve(
+        resident, [&](CallQueue&) { bench_idle("of a core, idle, each a host of its own", resident); },
+        is_first);
   }
-  volume::WriteOptions how;
-  how.geometry.inlines = {1, 1, kDims[0]};
-  how.geometry.crosslines = {1, 1, kDims[1]};
-  how.geometry.samples = kDims[2];
-  volume::write_volume(folder / "hashed.h5", how,
-                       [](const survey::Box& box, std::span<float> values, std::span<std::uint8_t>) {
-                         tasks::fill_hashed(kDims, 1, box, values);
-                       },
-                       {});
-  CallQueue queue;
-  std::thread thread([&] {
-    try {
-      Bench bench(queue, resident);
-      bench.open(folder / "hashed.h5");
-      bench.make_model();
-      bench.moves(number(argc, argv, 1, 10000));
-      bench.many_dirty();
-      bench.idle();
-      bench.cancels();
-      bench.memory(number(argc, argv, 2, 100000));
-    } catch (const std::exception& error) {
-      std::printf("failed: %s\n", error.what());
-    }
-    queue.close(Error(ErrorCode::kEngine, "the benchmark is over"));
-  });
-  resident.serve(&queue);
-  thread.join();
+  options.host_of.clear();
+  if (is_first) {
+    write_hashed(folder / "hashed.h5", kDims);
+    write_hashed(folder / "large.h5", {512, 512, 256});
+  }
+  Resident resident(world, options);
+  serve(
+      resident,
+      [&](CallQueue& queue) {
+        Bench bench(queue, resident);
+        bench.open(folder / "hashed.h5");
+        bench.make_model();
+        bench.moves(1, number(argc, argv, 1, 10000));
+        bench.moves(370, 100);
+        bench_idle("of a core, idle, each rank", resident);
+        bench.cancels(folder / "large.h5");
+        bench.memory(number(argc, argv, 2, 100000));
+      },
+      is_first);
 }
 
 }  // namespace

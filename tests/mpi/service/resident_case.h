@@ -44,6 +44,11 @@ class CollectingCall : public Call {
     return std::move(replies_);
   }
 
+  bool is_over() {
+    const std::scoped_lock lock(mutex_);
+    return finished_;
+  }
+
   std::function<void()> on_reply;  // before it is taken
   std::function<void(const State&)> on_progress;
 

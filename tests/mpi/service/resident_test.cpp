@@ -179,6 +179,28 @@ TEST_F(ResidentEngine, ComputesOffsetsAndSomeFacesAlone) {
   });
 }
 
+TEST_F(ResidentEngine, RemembersAFewKindsOfExtractionsAndBeginsOthersAgain) {
+  run([&](Client& client) {
+    const std::string volume = opened(client, path);
+    std::mt19937 random(2);
+    std::vector<Face> faces;
+    for (std::int32_t n = 0; n < 20; ++n) faces.push_back(made_face(random, kDims, 1, n));
+    client.ask<v1::EditModelReply>(put_command(1, faces));
+    std::vector<v1::Command> kinds;
+    for (const std::vector<std::string>& compute : std::vector<std::vector<std::string>>{
+             {"mean"}, {"min"}, {"max"}, {"contrast"}, {"offset"}, {"variance"}}) {
+      kinds.push_back(extract_command(volume, compute));
+      kinds.back().mutable_extract()->set_changed_only(true);
+      EXPECT_EQ(client.ask<v1::ExtractReply>(kinds.back()).back().done().faces(), 20);
+    }
+    client.ask<v1::EditModelReply>(put_command(2, {made_face(random, kDims, 1, 7)}));
+    EXPECT_EQ(client.ask<v1::ExtractReply>(kinds.back()).back().done().faces(), 1);
+    EXPECT_EQ(client.ask<v1::ExtractReply>(kinds.front()).back().done().faces(), 20);
+    // A fault's offsets hang together.
+    EXPECT_EQ(client.ask<v1::ExtractReply>(kinds[4]).back().done().faces(), 20);
+  });
+}
+
 TEST_F(ResidentEngine, LiveStepsAnswerOnceAndLeaveOutWhatIsRefused) {
   run([&](Client& client) {
     const std::string volume = opened(client, path);
@@ -313,6 +335,34 @@ TEST_F(ResidentEngine, WorksWithoutFacesOutsideOfTheSurveyAndOnOneVoxel) {
     expect_same(numbers, expected(voxel, model));
     EXPECT_EQ(numbers.at(identity_of(through)).count, 1);
     EXPECT_EQ(numbers.at(identity_of(beyond)).outside, extract::Outside::kWholly);
+  });
+}
+
+TEST_F(ResidentEngine, ReadsSlipInBetweenTheSlicesOfALongCommand) {
+  run([&](Client& client) {
+    const std::string volume = opened(client, path);
+    std::mt19937 random(9);
+    std::vector<Face> faces;
+    for (std::int32_t n = 0; n < 3000; ++n) faces.push_back(made_face(random, kDims, 1, n));
+    client.ask<v1::EditModelReply>(put_command(1, faces));
+    v1::Command read_command;
+    read_command.mutable_read_box()->set_volume(
+        "0123456789abcdef");  // no such volume: the answer is an error
+    const auto read = std::make_shared<CollectingCall<v1::ReadBoxReply>>(read_command);
+    const auto extract = std::make_shared<CollectingCall<v1::ExtractReply>>(extract_command(volume));
+    bool was_read_first = false;
+    extract->on_progress = [&](const Call::State&) {
+      if (read->id() == 0) client.queue.push_read(read);
+    };
+    extract->on_reply = [&] { was_read_first = read->is_over(); };
+    client.queue.push(extract);
+    EXPECT_EQ(extract->wait().back().done().faces(), 3000);
+    EXPECT_TRUE(was_read_first);
+    EXPECT_THROW(read->wait(), Error);
+    // And are answered while nothing runs.
+    const auto another = std::make_shared<CollectingCall<v1::ReadBoxReply>>(read_command);
+    client.queue.push_read(another);
+    EXPECT_THROW(another->wait(), Error);
   });
 }
 
