@@ -45,7 +45,7 @@ Extracted extract_one(comm::Communicator& world, const RenderJob& job, const Ren
 
 }  // namespace
 
-void write_render_job(const RenderJob& job, const std::filesystem::path& path) {
+Json json_of(const RenderJob& job) {
   Json json{{"footwall_render", 1},
             {"width", job.width},
             {"height", job.height},
@@ -62,12 +62,19 @@ void write_render_job(const RenderJob& job, const std::filesystem::path& path) {
                                    {"colour", surface.colour},
                                    {"placement", json_of(surface.placement)}});
   }
-  write_job_json(json, path, "the path " + job.layer.string() + " or a volume's: it is not UTF-8");
+  return json;
+}
+
+void write_render_job(const RenderJob& job, const std::filesystem::path& path) {
+  write_job_json(json_of(job), path, "the path " + job.layer.string() + " or a volume's: it is not UTF-8");
 }
 
 RenderJob read_render_job(const std::filesystem::path& path) {
-  const Json json = read_job_json(path);
-  const Error odd(ErrorCode::kFormat, path.string() + " is no render job of this version",
+  return render_job_from(read_job_json(path), path.string());
+}
+
+RenderJob render_job_from(const Json& json, const std::string& what) {
+  const Error odd(ErrorCode::kFormat, what + " is no render job of this version",
                   "use footwall render");
   try {
     if (json.at("footwall_render") != 1) throw odd;
@@ -97,8 +104,11 @@ RenderJob read_render_job(const std::filesystem::path& path) {
 
 void run_render(const comm::Communicator& parent, const std::filesystem::path& job_path,
                 const JobContext& context) {
+  run_render(parent, parent.collectively([&] { return read_render_job(job_path); }), context);
+}
+
+void run_render(const comm::Communicator& parent, const RenderJob& job, const JobContext& context) {
   const double start = omp_get_wtime();
-  const RenderJob job = parent.collectively([&] { return read_render_job(job_path); });
   comm::Communicator world(parent.get());
   if (job.visible) {
     run_visible_render(world, job, context);
