@@ -80,8 +80,8 @@ class Packer : public Paths {
   }
   std::string name_of(const path& file, const std::string& checksum) {
     const auto& known = packed_.task.volumes();
-    const bool is_new =
-        std::none_of(known.begin(), known.end(), [&](const auto& each) { return each.checksum() == checksum; });
+    const bool is_new = std::none_of(known.begin(), known.end(),
+                                     [&](const auto& each) { return each.checksum() == checksum; });
     if (is_new) {
       v1::VolumeName& added = *packed_.task.add_volumes();
       added.set_checksum(checksum);
@@ -104,7 +104,8 @@ class Packer : public Paths {
 };
 
 Error strange(const path& at, const char* wanted) {
-  return Error(ErrorCode::kInvalid, fmt::format("the task names '{}' where {} is expected", at.string(), wanted),
+  return Error(ErrorCode::kInvalid,
+               fmt::format("the task names '{}' where {} is expected", at.string(), wanted),
                "use @volume/CHECKSUM, @in/NAME and @out/NAME: an engine opens no other file for a task");
 }
 
@@ -144,7 +145,9 @@ class Unpacker : public Paths {
     at = folder_ / "out" / name_behind(kOut, at, "a file to write");
   }
   void numbered(path& at, const char* name) override { output(at, name); }
-  path input(const path& at) const { return folder_ / "in" / name_behind(kIn, at, "a file that comes along"); }
+  path input(const path& at) const {
+    return folder_ / "in" / name_behind(kIn, at, "a file that comes along");
+  }
 
  private:
   const v1::Task& task_;
@@ -230,8 +233,8 @@ PackedTask packed_task(const std::string& kind, const path& job, const path& vol
 bool is_task_file_name(std::string_view name) {
   constexpr std::size_t kLongest = 200;
   const auto may_be = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
-           c == '.';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+           c == '_' || c == '.';
   };
   return !name.empty() && name.size() <= kLongest && name.front() != '.' &&
          std::all_of(name.begin(), name.end(), may_be);

@@ -20,11 +20,11 @@ struct TaskFile {
 // What a client sends, and where what comes back goes.
 struct PackedTask {
   v1::Task task;
-  std::vector<TaskFile> in;           // to be sent with it
-  std::vector<TaskFile> out;          // files that come back under these very names
-  TaskFile out_numbered;              // names that begin with this one's and a "-": the rest is added to its path
-  std::filesystem::path out_folder;   // where other files go, under their names; empty: there are none
-  std::filesystem::path result;       // where "result.json" goes; in `out`, too
+  std::vector<TaskFile> in;   // to be sent with it
+  std::vector<TaskFile> out;  // files that come back under these very names
+  TaskFile out_numbered;      // names that begin with this one's and a "-": the rest is added to its path
+  std::filesystem::path out_folder;  // where other files go, under their names; empty: there are none
+  std::filesystem::path result;      // where "result.json" goes; in `out`, too
 
   // Where a file that came back under this name goes. Throws Error kEngine for a name that does not belong to
   // the task, or is none: an engine cannot write where the job does not.

@@ -35,18 +35,18 @@ VisibleView visible_view_from(const Json& json) {
 
 Json json_of(const IsosurfaceJob& job) {
   Json json{{"footwall_isosurface", 1},
-                  {"volume", job.volume.string()},
-                  {"value", job.value},
-                  {"variant", job.variant},
-                  {"pillars", job.pillars ? isosurface::text_of(*job.pillars) : "auto"},
-                  {"coordinates", job.world ? "world" : "index"},
-                  {"cap", job.cap},
-                  {"largest", job.largest},
-                  {"min_area", job.min_area},
-                  {"velocity", job.velocity ? Json(*job.velocity) : Json()},
-                  {"visible", job.visible ? json_of(*job.visible) : Json()},
-                  {"output", job.output.string()},
-                  {"result", job.result.string()}};
+            {"volume", job.volume.string()},
+            {"value", job.value},
+            {"variant", job.variant},
+            {"pillars", job.pillars ? isosurface::text_of(*job.pillars) : "auto"},
+            {"coordinates", job.world ? "world" : "index"},
+            {"cap", job.cap},
+            {"largest", job.largest},
+            {"min_area", job.min_area},
+            {"velocity", job.velocity ? Json(*job.velocity) : Json()},
+            {"visible", job.visible ? json_of(*job.visible) : Json()},
+            {"output", job.output.string()},
+            {"result", job.result.string()}};
   if (!job.volume_file.empty()) json["volume_file"] = job.volume_file;
   return json;
 }

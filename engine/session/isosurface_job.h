@@ -28,8 +28,8 @@ struct VisibleView {
 };
 
 // On disk as JSON: {footwall_isosurface: 1, volume, value, variant, pillars ("4x2x1", "auto"), coordinates
-// ("world", "index"), cap, largest, min_area, velocity, visible (or null), output, result}, and volume_file where it is
-// not empty.
+// ("world", "index"), cap, largest, min_area, velocity, visible (or null), output, result}, and volume_file
+// where it is not empty.
 struct IsosurfaceJob {
   std::filesystem::path volume;  // absolute, like the others
   std::filesystem::path output;  // takes its name when it is whole; empty: the surface is only measured

@@ -74,8 +74,7 @@ RenderJob read_render_job(const std::filesystem::path& path) {
 }
 
 RenderJob render_job_from(const Json& json, const std::string& what) {
-  const Error odd(ErrorCode::kFormat, what + " is no render job of this version",
-                  "use footwall render");
+  const Error odd(ErrorCode::kFormat, what + " is no render job of this version", "use footwall render");
   try {
     if (json.at("footwall_render") != 1) throw odd;
     RenderJob job;
