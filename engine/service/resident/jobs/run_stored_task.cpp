@@ -88,9 +88,10 @@ void send_file(const path& file, const std::string& name, const Send& send, cons
 
 void refuse_unseen(bool seen, const char* what) {
   if (seen) return;
-  throw Error(ErrorCode::kUnsupported,
-              std::string("the hosts of this engine share no folder, and ") + what + " is written by all of them",
-              "start the engine with a folder that all hosts see, or give the command fewer hosts");
+  throw Error(
+      ErrorCode::kUnsupported,
+      std::string("the hosts of this engine share no folder, and ") + what + " is written by all of them",
+      "start the engine with a folder that all hosts see, or give the command fewer hosts");
 }
 
 }  // namespace
