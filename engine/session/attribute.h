@@ -19,7 +19,7 @@ struct AttributeJob {
   std::filesystem::path output;  // the new volume file; takes its name when it is whole
   std::filesystem::path result;  // {ranks, seconds, checksum}, written last
   extract::Window window;
-  std::string volume_file;  // what the output is to call the volume's file; empty: by its name
+  std::string volume_file = {};  // what the output is to call the volume's file; empty: by its name
 };
 
 // Throws kIo, kUnsupported (a path that is not UTF-8).
