@@ -194,4 +194,24 @@ Changes MeshSet::take_changes() {
   return changes;
 }
 
+void MeshSet::forget_newest() {
+  require(touched_.empty() && has_mesh(mesh_limit() - 1), "the newest mesh, after take_changes()");
+  face_count_ -= meshes_.back()->mesh.face_count();
+  --mesh_count_;
+  meshes_.pop_back();
+}
+
+void MeshSet::restore(MeshId id, Mesh mesh) {
+  require(touched_.empty() && id >= 0 && id < mesh_limit(), "a mesh of before, after take_changes()");
+  std::unique_ptr<Slot>& slot = meshes_[id];
+  if (slot) {
+    face_count_ -= slot->mesh.face_count();
+  } else {
+    slot = std::make_unique<Slot>();
+    ++mesh_count_;
+  }
+  face_count_ += mesh.face_count();
+  slot->mesh = std::move(mesh);
+}
+
 }  // namespace footwall::mesh

@@ -59,6 +59,13 @@ class MeshSet {
   // not to the model.
   Changes take_changes();
 
+  // To take operations back, newest first. Both want take_changes() to have been called since the last
+  // operation, and touch no face in its sense. CREATE-MESH: the newest mesh was never there, and its id is
+  // free again.
+  void forget_newest();
+  // Any other: the mesh as it was before, also where it was destroyed.
+  void restore(MeshId id, Mesh mesh);
+
  private:
   enum class Touch : std::uint8_t { kNot, kAdded, kChanged, kRemoved, kCameAndWent };
   struct Slot {

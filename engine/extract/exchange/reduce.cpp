@@ -63,6 +63,8 @@ void deal(const Setup& setup, ReduceBuffers& kept, std::vector<Finished>& finish
   std::int32_t shared = 0;
   kept.order.of(setup.input.faces);
   for (std::size_t at = 0; at < faces; ++at) {
+    if (at % kFewFaces == kFewFaces - 1)
+      setup.job.check();  // never in the few that are dealt without agreement
     const std::size_t n = kept.order[at];
     const survey::Box box = survey::intersection(voxelize::bounding_voxels(setup.face(n).triangle), survey);
     const bool mine = setup.mine(n);

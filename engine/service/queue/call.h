@@ -37,7 +37,8 @@ class Call {
   // One message of the answer, of the method's reply type. Blocks while the client is slower than the engine,
   // up to a time that the server sets; throws Error kCancelled once the client has gone or was too slow.
   virtual void send(const google::protobuf::Message& reply) = 0;
-  // The command's end: success, or why not. Once for each take_command(); never throws.
+  // The command's end: success, or why not. Once for each push, from the dispatcher's thread; for a call that
+  // is cancelled while it waits, or whose queue is closed, from the thread that does so. Never throws.
   virtual void finish(const std::optional<Error>& failure) noexcept = 0;
 
   const std::string& what() const { return what_; }

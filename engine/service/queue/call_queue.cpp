@@ -3,15 +3,44 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace footwall::service {
 
 CallQueue::CallQueue(std::size_t most) : most_(most) {}
 
+namespace {
+
+const Error& cancelled() {
+  static const Error kCancelled(ErrorCode::kCancelled, "cancelled", "nothing was changed");
+  return kCancelled;
+}
+
+}  // namespace
+
+CallQueue::Calls CallQueue::take_cancelled() {
+  Calls gone;
+  for (Calls* calls : {&waiting_, &reads_}) {
+    const auto is_left = [](const std::shared_ptr<Call>& call) { return !call->context().cancelled(); };
+    const auto at = std::stable_partition(calls->begin(), calls->end(), is_left);
+    gone.insert(gone.end(), std::make_move_iterator(at), std::make_move_iterator(calls->end()));
+    calls->erase(at, calls->end());
+  }
+  return gone;
+}
+
 void CallQueue::add(std::shared_ptr<Call> call, Calls& to) {
+  // Finished when the lock is gone: a call may ask the queue.
+  struct Finish {
+    Calls calls;
+    ~Finish() {
+      for (const auto& each : calls) each->finish(cancelled());
+    }
+  } gone;
   {
     const std::scoped_lock lock(mutex_);
     if (closed_) throw Error(*closed_);
+    if (waiting_.size() + reads_.size() >= most_) gone.calls = take_cancelled();
     if (waiting_.size() + reads_.size() >= most_) {
       throw Error(ErrorCode::kMemory, fmt::format("{} calls wait for the engine already", most_),
                   "wait for some of them, or cancel them");
@@ -72,17 +101,26 @@ std::vector<CallQueue::Entry> CallQueue::entries() const {
 }
 
 bool CallQueue::cancel(std::uint64_t id) {
-  const std::scoped_lock lock(mutex_);
-  const auto is_it = [&](const std::shared_ptr<Call>& call) { return call && call->id() == id; };
-  std::shared_ptr<Call> found;
-  if (is_it(running_)) found = running_;
-  for (const Calls* calls : {&waiting_, &reads_}) {
-    const auto at = std::find_if(calls->begin(), calls->end(), is_it);
-    if (at != calls->end()) found = *at;
+  Calls gone;
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto is_it = [&](const std::shared_ptr<Call>& call) { return call && call->id() == id; };
+    if (is_it(running_)) {
+      running_->context().cancel();
+      return true;
+    }
+    for (Calls* calls : {&waiting_, &reads_}) {
+      const auto at = std::find_if(calls->begin(), calls->end(), is_it);
+      if (at == calls->end()) continue;
+      (*at)->context().cancel();
+      gone.push_back(std::move(*at));
+      calls->erase(at);
+      break;
+    }
   }
-  // One that waits is failed when its turn comes, without a word to the ranks.
-  if (found) found->context().cancel();
-  return found != nullptr;
+  // One that waits need not wait for its turn to be told.
+  for (const auto& call : gone) call->finish(cancelled());
+  return !gone.empty();
 }
 
 void CallQueue::close(const Error& why) {

@@ -39,7 +39,9 @@ class CallQueue {
     Call::State state;
   };
   std::vector<Entry> entries() const;
-  // Cancels a call, waiting or running; false where there is none of that id.
+  // Cancels a call, waiting or running; false where there is none of that id. One that waits is finished at
+  // once, on this thread; one whose own context was cancelled (its client has left) when its turn comes, or
+  // when its place is needed.
   bool cancel(std::uint64_t id);
   // No more calls are taken; those that wait are failed with `why`, the running one is cancelled.
   void close(const Error& why);
@@ -47,6 +49,7 @@ class CallQueue {
  private:
   using Calls = std::deque<std::shared_ptr<Call>>;
   void add(std::shared_ptr<Call> call, Calls& to);
+  Calls take_cancelled();  // those that wait
 
   std::size_t most_;
   mutable std::mutex mutex_;

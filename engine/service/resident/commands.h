@@ -10,7 +10,8 @@
 
 namespace footwall::v1 {
 class Command;
-}
+class ReadBoxRequest;
+}  // namespace footwall::v1
 
 namespace footwall::service {
 
@@ -42,5 +43,8 @@ void face_voxels(ResidentState&, const v1::Command&, const Send&, const JobConte
 void isosurface(ResidentState&, const v1::Command&, const Send&, const JobContext&);
 void render(ResidentState&, const v1::Command&, const Send&, const JobContext&);
 void run_task(ResidentState&, const v1::Command&, const Send&, const JobContext&);
+
+// Rank 0 alone, between the slices of what all ranks do; throws its own error.
+void read_box(ResidentState&, const v1::ReadBoxRequest&, const Send&);
 
 }  // namespace footwall::service

@@ -3,7 +3,9 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "engine/comm/communicator.h"
 #include "engine/service/queue/call_queue.h"
@@ -16,6 +18,11 @@ struct ResidentOptions {
   std::filesystem::path volumes;  // where volumes are found by checksum; may be empty
   int threads = 1;                // of each rank
   std::int64_t memory_bytes = 0;  // of each host, for voxels, faces and pictures; 0: what is free there
+  // Of each rank, the lowest rank of its host; empty: as MPI tells. For tests, which have one host alone.
+  std::vector<int> host_of;
+  // What a rank does whose host's first rank has died: it may wait for a message that never comes. None: the
+  // process ends. Called on a thread of its own.
+  std::function<void()> left_alone;
 };
 
 class Resident {

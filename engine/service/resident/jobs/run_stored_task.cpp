@@ -1,5 +1,6 @@
 #include "engine/service/resident/jobs/run_stored_task.h"
 
+#include <omp.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -122,6 +123,7 @@ void run_stored_task(const comm::Communicator& world, const v1::StoredTask& stor
   const JobContext most = job.part(0, 0.95);
 
   // 2. Run it.
+  omp_set_num_threads(threads);
   if (task.kind() == "batch") {
     session::BatchOptions options;
     options.threads = threads;
