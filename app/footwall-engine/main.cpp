@@ -1,6 +1,7 @@
 // The MPI program: runs one batch job or scripted workload, makes one attribute volume, isosurface or
-// picture, on all ranks, serves clients, or checks that they work together. Exit 0 done, 1 failed, 2 wrong usage, 75 told to
-// make room (SIGTERM; run it again and it goes on), 130 cancelled; a failure is printed once.
+// picture, on all ranks, serves clients, or checks that they work together. Exit 0 done, 1 failed, 2 wrong
+// usage, 75 told to make room (SIGTERM, SIGUSR1; run it again and it goes on), 130 cancelled; a failure is
+// printed once.
 #include <signal.h>
 #include <sys/prctl.h>
 

@@ -37,7 +37,7 @@ volatile std::sig_atomic_t stopped = 0;
 volatile std::sig_atomic_t terminated = 0;
 void stop_running_job(int number) {
   stopped = 1;
-  if (number == SIGTERM) terminated = 1;
+  if (number == SIGTERM || number == SIGUSR1) terminated = 1;
   if (current_job != nullptr) current_job->cancel();
 }
 
@@ -60,7 +60,7 @@ void heed_signals() {
   struct sigaction action = {};
   action.sa_handler = stop_running_job;
   action.sa_flags = SA_RESTART;
-  for (const int number : {SIGINT, SIGTERM, SIGUSR1}) sigaction(number, &action, nullptr);
+  for (const int number : {SIGINT, SIGTERM, SIGUSR1, SIGUSR2}) sigaction(number, &action, nullptr);
 }
 
 bool told_to_make_room() {

@@ -9,7 +9,7 @@
 
 namespace footwall::app {
 
-// From now on SIGINT, SIGTERM and SIGUSR1 do not end the program, but cancel its job, also one that has not
+// From now on SIGINT, SIGTERM, SIGUSR1 and SIGUSR2 do not end the program, but cancel its job, also one that has not
 // begun. Call it before MPI_Init, which takes a while.
 void heed_signals();
 
@@ -18,7 +18,7 @@ void heed_signals();
 // {"progress": {fraction, phase, amounts}}. Call it once.
 const JobContext& running_job(const comm::Communicator& world);
 
-// Whether this rank got SIGTERM: how batch systems ask for their processors, before they kill.
+// Whether this rank got SIGTERM or SIGUSR1: how batch systems ask for their processors, before they kill.
 bool told_to_make_room();
 
 // One line on standard error, in one write. Nobody may be listening any more: that is no error.

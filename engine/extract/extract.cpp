@@ -68,6 +68,10 @@ Tally tally_of(const Ran& ran) {
   return tally;
 }
 
+const Seconds& LoadedSurvey::own_seconds() const {
+  return state_->own_seconds;
+}
+
 void LoadedSurvey::forget_cache() {
   state_->forget_cache();
 }
@@ -117,6 +121,7 @@ Result LoadedSurvey::extract(const Input& input, const Options& options, const J
   seconds.balance = balanced - start;
   seconds.total = omp_get_wtime() - start + state_->read_seconds;
   mine.set(seconds);
+  state_->own_seconds = seconds;
   const Tally all = together(world, mine, failure);
 
   result.faces = std::move(ran.faces);

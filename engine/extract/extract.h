@@ -56,6 +56,9 @@ class LoadedSurvey {
   // throws as extract.
   std::vector<FaultStatistics> faults(const Input& input, const Options& options, const JobContext& job = {});
 
+  // Of the last extract(), of this rank alone.
+  const Seconds& own_seconds() const;
+
   const comm::RankGrid& grid() const;
   // Drops the voxels of other ranks that were kept for later extractions. By convention every rank calls it.
   void forget_cache();

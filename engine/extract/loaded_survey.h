@@ -46,6 +46,7 @@ struct LoadedSurvey::State {
   Kept kept;
   Gather gather;
   double read_seconds = 0;  // of this rank
+  Seconds own_seconds;      // of the last extraction, of this rank
 };
 
 // Steps 2 to 4 of EXTRACT-ALL for faces whose ranks are known, and the results at rank 0, unagreed; after

@@ -88,11 +88,12 @@ volume::WriteOptions options_of(const volume::VolumeInfo& info, const AttributeJ
   options.origin = info.origin;
   options.role = volume::Role::kDiscontinuity;
   options.high_is_fault = true;
-  options.source = "discontinuity of " + job.volume.filename().string();
+  const std::string file = job.volume_file.empty() ? job.volume.filename().string() : job.volume_file;
+  options.source = "discontinuity of " + file;
   const Json provenance{
       {"attribute", "discontinuity"},
       {"window", extract::text_of(job.window)},
-      {"of", {{"file", job.volume.filename().string()}, {"checksum", to_hex(info.checksum)}}},
+      {"of", {{"file", file}, {"checksum", to_hex(info.checksum)}}},
       {"high_is", "fault"}};
   options.provenance_json = provenance.dump(-1, ' ', false, Json::error_handler_t::replace);
   return options;
@@ -100,19 +101,27 @@ volume::WriteOptions options_of(const volume::VolumeInfo& info, const AttributeJ
 
 }  // namespace
 
+Json json_of(const AttributeJob& job) {
+  Json json{{"footwall_attribute", 1},
+            {"kind", "discontinuity"},
+            {"window", extract::text_of(job.window)},
+            {"volume", job.volume.string()},
+            {"output", job.output.string()},
+            {"result", job.result.string()}};
+  if (!job.volume_file.empty()) json["volume_file"] = job.volume_file;
+  return json;
+}
+
 void write_attribute_job(const AttributeJob& job, const std::filesystem::path& path) {
-  const Json json{{"footwall_attribute", 1},
-                  {"kind", "discontinuity"},
-                  {"window", extract::text_of(job.window)},
-                  {"volume", job.volume.string()},
-                  {"output", job.output.string()},
-                  {"result", job.result.string()}};
-  write_job_json(json, path, "the path " + job.volume.string() + ": it is not UTF-8");
+  write_job_json(json_of(job), path, "the path " + job.volume.string() + ": it is not UTF-8");
 }
 
 AttributeJob read_attribute_job(const std::filesystem::path& path) {
-  const Json json = read_job_json(path);
-  const Error odd(ErrorCode::kFormat, path.string() + " is no attribute job of this version",
+  return attribute_job_from(read_job_json(path), path.string());
+}
+
+AttributeJob attribute_job_from(const Json& json, const std::string& what) {
+  const Error odd(ErrorCode::kFormat, what + " is no attribute job of this version",
                   "use footwall attribute");
   try {
     if (json.at("footwall_attribute") != 1 || json.at("kind") != "discontinuity") throw odd;
@@ -121,6 +130,7 @@ AttributeJob read_attribute_job(const std::filesystem::path& path) {
     job.volume = json.at("volume").get<std::string>();
     job.output = json.at("output").get<std::string>();
     job.result = json.at("result").get<std::string>();
+    job.volume_file = json.value("volume_file", "");
     return job;
   } catch (const Json::exception&) {
     throw odd;
@@ -129,8 +139,11 @@ AttributeJob read_attribute_job(const std::filesystem::path& path) {
 
 void run_attribute(const comm::Communicator& parent, const std::filesystem::path& job_path,
                    const JobContext& context) {
+  run_attribute(parent, parent.collectively([&] { return read_attribute_job(job_path); }), context);
+}
+
+void run_attribute(const comm::Communicator& parent, const AttributeJob& job, const JobContext& context) {
   const double start = omp_get_wtime();
-  const AttributeJob job = parent.collectively([&] { return read_attribute_job(job_path); });
   const comm::Communicator world(parent.get());
   Maker maker(world, job);
   // As the reader: the writer throws on all ranks or on none.

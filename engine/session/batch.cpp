@@ -11,8 +11,10 @@
 #include "engine/session/fault_summary.h"
 #include "engine/session/job.h"
 #include "engine/session/part_file.h"
+#include "engine/session/rank_log.h"
 #include "engine/session/shared_parts.h"
 #include "storage/base/hash.h"
+#include "storage/base/log.h"
 #include "storage/base/partial_file.h"
 #include "storage/volume/volume_reader_parallel.h"
 
@@ -22,8 +24,11 @@ namespace {
 using Json = nlohmann::json;
 
 // How much a stopped job may lose, against the cost of one more round of all ranks.
-constexpr std::size_t kSmallestGroup = 20000;  // faces
-constexpr std::size_t kMostGroups = 20;
+constexpr std::size_t kFirstGroup = 20000;  // faces
+constexpr std::size_t kMostGroups = 20;     // but for what is slow
+constexpr double kGroupSeconds = 10;
+constexpr std::size_t kSmallestGroup = 500;
+constexpr const char* kLog = "log.txt";  // beside result.json
 
 std::string shared_text(const comm::Communicator& world, const std::string& text) {
   const auto raw = std::as_bytes(std::span(text));
@@ -31,9 +36,8 @@ std::string shared_text(const comm::Communicator& world, const std::string& text
   return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-// Rank 0 reads the files, everyone parses them.
-Job shared_job(const comm::Communicator& world, const std::filesystem::path& path) {
-  JobFiles files = world.collectively([&] { return world.rank() == 0 ? read_job_files(path) : JobFiles{}; });
+// Rank 0 has the files, everyone parses them.
+Job shared_job(const comm::Communicator& world, JobFiles files, const std::filesystem::path& path) {
   files.json = shared_text(world, files.json);
   files.faces = shared_text(world, files.faces);
   return world.collectively([&] { return parse_job(files, std::filesystem::absolute(path).parent_path()); });
@@ -140,7 +144,7 @@ Json with_total(Json seconds, double total) {
 }
 
 Json summary(const Job& job, const std::filesystem::path& job_path, const extract::Report& report,
-             const SharedParts& parts, double total_seconds) {
+             const SharedParts& parts, const Json& each_rank, double total_seconds) {
   std::vector<extract::Face> faces;
   std::vector<extract::FaceStatistics> statistics;
   Json files = Json::array();
@@ -172,6 +176,7 @@ Json summary(const Job& job, const std::filesystem::path& job_path, const extrac
           {"messages", report.messages},
           {"load_max_over_mean", report.load_max_over_mean},
           {"load_deviation", report.load_deviation},
+          {"each_rank", each_rank},
           {"pillars", job.options.pillars},
           {"cache_hits", report.cache_hits},
           {"cache_voxels", report.cache_voxels},
@@ -204,66 +209,142 @@ void make_folder(const std::filesystem::path& folder) {
   }
 }
 
+// The job between reading and its summary.
+class Batch {
+ public:
+  Batch(const comm::Communicator& world, Job job, const std::filesystem::path& job_path,
+        const JobContext& context, const BatchOptions& options)
+      : world_(world), job_(std::move(job)), job_path_(job_path), context_(context), options_(options) {}
+
+  void run();
+
+ private:
+  void extract_missing(volume::ParallelVolumeReader& reader, SharedParts& parts, Totals& totals);
+  void add(const extract::Seconds& group);
+  Json log() {
+    phases_.total = omp_get_wtime() - start_;
+    return rank_log(world_, phases_, job_.options.threads);
+  }
+  void log_failure(const Error& error);
+
+  const comm::Communicator& world_;
+  Job job_;
+  const std::filesystem::path& job_path_;
+  const JobContext& context_;
+  const BatchOptions& options_;
+  double start_ = omp_get_wtime();
+  RankPhases phases_;
+};
+
+void Batch::add(const extract::Seconds& group) {
+  add_phases(group, phases_.seconds);
+  phases_.seconds.read = group.read;
+  phases_.seconds.wait += group.wait;
+}
+
+void Batch::extract_missing(volume::ParallelVolumeReader& reader, SharedParts& parts, Totals& totals) {
+  std::size_t all_faces = 0;
+  for (std::size_t n = 0; n < job_.faults.size(); ++n) {
+    if (!parts.done(n)) all_faces += job_.faults[n].faces.size();
+  }
+  std::size_t most = kFirstGroup;
+  std::vector<std::size_t> group = parts.next_group(most);
+  if (group.empty()) return;
+  const auto read = [&](const survey::Box& box, std::span<float> values) {
+    reader.read_collective(box, values);
+  };
+  extract::LoadedSurvey survey(world_, reader.info().dims, read, context_.part(0, 0.5), job_.options.pillars);
+  const auto share = [&](std::size_t n) {
+    return all_faces == 0 ? 0.98 : 0.5 + 0.48 * static_cast<double>(n) / static_cast<double>(all_faces);
+  };
+  std::size_t before = 0;
+  for (; !group.empty(); group = parts.next_group(most)) {
+    const double start = omp_get_wtime();
+    std::vector<extract::Face> faces;
+    for (const std::size_t n : group)
+      faces.insert(faces.end(), job_.faults[n].faces.begin(), job_.faults[n].faces.end());
+    const double done = share(before + faces.size());
+    const extract::Input input{reader.info().dims, reader.info().statistics.max_abs, faces};
+    const extract::Result result = survey.extract(input, job_.options, context_.part(share(before), done));
+    const double extracted = omp_get_wtime();
+    parts.write(group, result.faces, result.blobs,
+                survey.faults(input, job_.options, context_.part(done, done)));
+    phases_.write += omp_get_wtime() - extracted;
+    add(survey.own_seconds());
+    totals.add(result.report);
+    before += faces.size();
+    // All ranks take the same next group: that of the slowest's clock.
+    const double seconds = std::max(world_.maximum(omp_get_wtime() - start), 1e-6);
+    const double in_time = kGroupSeconds * static_cast<double>(faces.size()) / seconds;
+    const std::size_t upper = std::max(kFirstGroup, all_faces / kMostGroups);
+    most = in_time < static_cast<double>(upper) ? std::max(kSmallestGroup, static_cast<std::size_t>(in_time))
+                                                : upper;
+  }
+}
+
+void Batch::run() {
+  // 1 Look at the volume.
+  world_.collectively([&] { extract::validate(job_.options); });
+  // The reader throws on all ranks or on none, so that it may stand inside collectively().
+  auto reader = world_.collectively([&] { return volume::ParallelVolumeReader(world_.get(), job_.volume); });
+  world_.collectively([&] { check_volume(reader.info(), job_); });
+
+  // 2 Which faults are done already?
+  world_.collectively([&] {
+    if (world_.rank() == 0) make_folder(job_.output);
+  });
+  try {
+    SharedParts parts(world_, job_, options_.one_writer ? 1 : world_.size());
+
+    // 3 EXTRACT-ALL over the others, group by group; the parts of each are on disk before the next.
+    Totals totals(job_, world_.size());
+    extract_missing(reader, parts, totals);
+
+    // 4 The summary.
+    const extract::Report report = totals.report(world_);
+    const Json ranks = log();
+    world_.collectively([&] {
+      if (world_.rank() != 0) return;
+      const Json json = summary(job_, job_path_, report, parts, ranks, omp_get_wtime() - start_);
+      append_rank_log(job_.output / kLog, fmt::format("{}: done", job_path_.filename().string()), ranks);
+      write_whole_file(job_.output / "result.json",
+                       json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+      context_.report(1, "write", "done");
+    });
+  } catch (const comm::AgreedError& error) {
+    log_failure(error);
+    throw;
+  }
+}
+
+// All ranks are here with the same error. That it cannot be noted is a lesser one.
+void Batch::log_failure(const Error& error) {
+  const Json ranks = log();
+  if (world_.rank() != 0) return;
+  try {
+    append_rank_log(job_.output / kLog,
+                    fmt::format("{}: ended early: {}", job_path_.filename().string(), error.message()),
+                    ranks);
+  } catch (const Error& failure) {
+    log::warn(failure.what());
+  }
+}
+
 }  // namespace
 
 void run_batch(const comm::Communicator& world, const std::filesystem::path& job_path,
                const JobContext& context, const BatchOptions& options) {
-  const double start = omp_get_wtime();
+  run_batch(world,
+            world.collectively([&] { return world.rank() == 0 ? read_job_files(job_path) : JobFiles{}; }),
+            job_path, context, options);
+}
 
-  // 1 Read the job; look at the volume.
-  Job job = shared_job(world, job_path);
+void run_batch(const comm::Communicator& world, const JobFiles& files, const std::filesystem::path& job_path,
+               const JobContext& context, const BatchOptions& options) {
+  Job job = shared_job(world, files, job_path);
   if (options.threads > 0) job.options.threads = options.threads;
   if (!options.volume.empty()) job.volume = std::filesystem::absolute(options.volume);
-  world.collectively([&] { extract::validate(job.options); });
-  // The reader throws on all ranks or on none, so that it may stand inside collectively().
-  auto reader = world.collectively([&] { return volume::ParallelVolumeReader(world.get(), job.volume); });
-  world.collectively([&] { check_volume(reader.info(), job); });
-
-  // 2 Which faults are done already?
-  world.collectively([&] {
-    if (world.rank() == 0) make_folder(job.output);
-  });
-  SharedParts parts(world, job);
-  std::size_t all_faces = 0;
-  for (std::size_t n = 0; n < job.faults.size(); ++n) {
-    if (!parts.done(n)) all_faces += job.faults[n].faces.size();
-  }
-  const auto groups = parts.groups(std::max(kSmallestGroup, all_faces / kMostGroups));
-
-  // 3 EXTRACT-ALL over the others, group by group; the parts of each are on disk before the next.
-  Totals totals(job, world.size());
-  if (!groups.empty()) {
-    const auto read = [&](const survey::Box& box, std::span<float> values) {
-      reader.read_collective(box, values);
-    };
-    extract::LoadedSurvey survey(world, reader.info().dims, read, context.part(0, 0.5), job.options.pillars);
-    std::size_t before = 0;
-    for (const std::vector<std::size_t>& group : groups) {
-      std::vector<extract::Face> faces;
-      for (const std::size_t n : group)
-        faces.insert(faces.end(), job.faults[n].faces.begin(), job.faults[n].faces.end());
-      const auto share = [&](std::size_t n) {
-        return all_faces == 0 ? 0.98 : 0.5 + 0.48 * static_cast<double>(n) / static_cast<double>(all_faces);
-      };
-      const double done = share(before + faces.size());
-      const extract::Input input{reader.info().dims, reader.info().statistics.max_abs, faces};
-      const extract::Result result = survey.extract(input, job.options, context.part(share(before), done));
-      parts.write(group, result.faces, result.blobs,
-                  survey.faults(input, job.options, context.part(done, done)));
-      totals.add(result.report);
-      before += faces.size();
-    }
-  }
-
-  // 4 The summary.
-  const extract::Report report = totals.report(world);
-  world.collectively([&] {
-    if (world.rank() != 0) return;
-    const Json json = summary(job, job_path, report, parts, omp_get_wtime() - start);
-    write_whole_file(job.output / "result.json",
-                     json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-    context.report(1, "write", "done");
-  });
+  Batch(world, std::move(job), job_path, context, options).run();
 }
 
 }  // namespace footwall::session

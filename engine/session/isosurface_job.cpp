@@ -33,29 +33,37 @@ VisibleView visible_view_from(const Json& json) {
 
 }  // namespace
 
+Json json_of(const IsosurfaceJob& job) {
+  Json json{{"footwall_isosurface", 1},
+            {"volume", job.volume.string()},
+            {"value", job.value},
+            {"variant", job.variant},
+            {"pillars", job.pillars ? isosurface::text_of(*job.pillars) : "auto"},
+            {"coordinates", job.world ? "world" : "index"},
+            {"cap", job.cap},
+            {"largest", job.largest},
+            {"min_area", job.min_area},
+            {"velocity", job.velocity ? Json(*job.velocity) : Json()},
+            {"visible", job.visible ? json_of(*job.visible) : Json()},
+            {"output", job.output.string()},
+            {"result", job.result.string()}};
+  if (!job.volume_file.empty()) json["volume_file"] = job.volume_file;
+  return json;
+}
+
 void write_isosurface_job(const IsosurfaceJob& job, const std::filesystem::path& path) {
-  const Json json{{"footwall_isosurface", 1},
-                  {"volume", job.volume.string()},
-                  {"value", job.value},
-                  {"variant", job.variant},
-                  {"pillars", job.pillars ? isosurface::text_of(*job.pillars) : "auto"},
-                  {"coordinates", job.world ? "world" : "index"},
-                  {"cap", job.cap},
-                  {"largest", job.largest},
-                  {"min_area", job.min_area},
-                  {"velocity", job.velocity ? Json(*job.velocity) : Json()},
-                  {"visible", job.visible ? json_of(*job.visible) : Json()},
-                  {"output", job.output.string()},
-                  {"result", job.result.string()}};
   write_job_json(
-      json, path,
+      json_of(job), path,
       "the paths " + job.volume.string() + " and " + job.output.string() + ": they are not both UTF-8",
       "rename them");
 }
 
 IsosurfaceJob read_isosurface_job(const std::filesystem::path& path) {
-  const Json json = read_job_json(path);
-  const Error odd(ErrorCode::kFormat, path.string() + " is no isosurface job of this version",
+  return isosurface_job_from(read_job_json(path), path.string());
+}
+
+IsosurfaceJob isosurface_job_from(const Json& json, const std::string& what) {
+  const Error odd(ErrorCode::kFormat, what + " is no isosurface job of this version",
                   "use footwall isosurface");
   try {
     if (json.at("footwall_isosurface") != 1) throw odd;
@@ -73,6 +81,7 @@ IsosurfaceJob read_isosurface_job(const std::filesystem::path& path) {
     if (!json.at("visible").is_null()) job.visible = visible_view_from(json.at("visible"));
     job.output = json.at("output").get<std::string>();
     job.result = json.at("result").get<std::string>();
+    job.volume_file = json.value("volume_file", "");
     return job;
   } catch (const Json::exception&) {
     throw odd;

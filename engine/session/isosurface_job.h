@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -27,7 +28,8 @@ struct VisibleView {
 };
 
 // On disk as JSON: {footwall_isosurface: 1, volume, value, variant, pillars ("4x2x1", "auto"), coordinates
-// ("world", "index"), cap, largest, min_area, velocity, visible (or null), output, result}.
+// ("world", "index"), cap, largest, min_area, velocity, visible (or null), output, result}, and volume_file
+// where it is not empty.
 struct IsosurfaceJob {
   std::filesystem::path volume;  // absolute, like the others
   std::filesystem::path output;  // takes its name when it is whole; empty: the surface is only measured
@@ -41,13 +43,17 @@ struct IsosurfaceJob {
   std::uint64_t largest = 0;           // components to keep; 0: all
   double min_area = 0;                 // of a component, in the unit that areas are told in
   std::optional<double> velocity;      // m/s, for areas and volumes in a time survey
+  std::string volume_file;             // what the output is to call the volume's file; empty: by its name
   std::optional<VisibleView> visible;  // none: the whole isosurface; else without cap, variant, pillars
 };
 
 // Throws kIo, kUnsupported (a path that is not UTF-8).
 void write_isosurface_job(const IsosurfaceJob& job, const std::filesystem::path& path);
+nlohmann::json json_of(const IsosurfaceJob& job);
 // Throws kNotFound, kFormat.
 IsosurfaceJob read_isosurface_job(const std::filesystem::path& path);
+// what: names the job in errors.
+IsosurfaceJob isosurface_job_from(const nlohmann::json& json, const std::string& what);
 
 // Collective; the same Error on every rank, and then no file: what reading volumes throws, kUsage (no such
 // variant), kCancelled on any
@@ -60,5 +66,7 @@ IsosurfaceJob read_isosurface_job(const std::filesystem::path& path);
 // mode, finished, uncovered_pixels, passes (visible_choice.h) and pass_layers, their number.
 void run_isosurface(const comm::Communicator& parent, const std::filesystem::path& job_path,
                     const JobContext& context);
+// The same; ranks give the same job.
+void run_isosurface(const comm::Communicator& parent, const IsosurfaceJob& job, const JobContext& context);
 
 }  // namespace footwall::session

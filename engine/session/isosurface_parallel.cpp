@@ -274,7 +274,7 @@ void Run::write() {
   share.triangles = {reinterpret_cast<const std::uint32_t*>(triangles.data()), triangles.size() * 3};
   Json description{
       {"isosurface", {{"value", job_.value}, {"capped", job_.cap}}},
-      {"volume", {{"file", job_.volume.filename().string()}, {"checksum", to_hex(samples_.info().checksum)}}},
+      {"volume", {{"file", job_.volume_file.empty() ? job_.volume.filename().string() : job_.volume_file}, {"checksum", to_hex(samples_.info().checksum)}}},
       {"coordinates", job_.world ? "world" : "index"},
       {"z_positive", "down"},
       {"normals", "to lower values"}};
@@ -313,8 +313,11 @@ Json Run::result() const {
 
 void run_isosurface(const comm::Communicator& parent, const std::filesystem::path& job_path,
                     const JobContext& context) {
+  run_isosurface(parent, parent.collectively([&] { return read_isosurface_job(job_path); }), context);
+}
+
+void run_isosurface(const comm::Communicator& parent, const IsosurfaceJob& job, const JobContext& context) {
   const double start = omp_get_wtime();
-  const IsosurfaceJob job = parent.collectively([&] { return read_isosurface_job(job_path); });
   comm::Communicator world(parent.get());
   Run run(world, job, context);
   run.end_of("open");

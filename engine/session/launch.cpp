@@ -114,8 +114,8 @@ class Stopper {
   void step(const Child& child) {
     const auto now = Clock::now();
     if (stage_ == 0) {
-      // mpirun passes SIGUSR1 on to the ranks, who agree to cancel and leave in order.
-      child.signal(SIGUSR1);
+      // mpirun passes SIGUSR2 on to the ranks, who agree to cancel and leave in order.
+      child.signal(SIGUSR2);
     } else if (now < next_) {
       return;
     } else if (stage_ == 1) {
@@ -178,7 +178,7 @@ std::string run_engine(const LaunchOptions& options, const EngineTask& task, con
   // srun and mpirun end with the status of the ranks; one that was told before it could listen was killed by
   // it.
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  if (code == kResumable || code == 128 + SIGTERM) {
+  if (code == kResumable || code == 128 + SIGTERM || code == 128 + SIGUSR1) {
     throw Preempted(listener.error().value_or(Error(ErrorCode::kCancelled, "the ranks were told to stop")));
   }
   if (listener.error()) throw *listener.error();

@@ -30,7 +30,7 @@ std::filesystem::path engine_program(const LaunchOptions& options);
 // The command that would run: the launcher's words (launcher.h), then the engine, "batch", the job.
 std::vector<std::string> launch_command(const LaunchOptions& options, const std::filesystem::path& job);
 
-// The job's ranks were told to make room (SIGTERM from a batch system): what is done is kept, and the next
+// The job's ranks were told to make room (SIGTERM or SIGUSR1 from a batch system): what is done is kept, and the next
 // run goes on from there. Its code is kCancelled.
 class Preempted : public Error {
  public:
@@ -44,7 +44,7 @@ struct EngineTask {
 };
 
 // Runs the task and returns the text of its result. Progress of the ranks is reported to `job`,
-// its cancel is passed on (the ranks get SIGUSR1, the launcher SIGTERM after 5 s, and all are killed after
+// its cancel is passed on (the ranks get SIGUSR2, the launcher SIGTERM after 5 s, and all are killed after
 // 10 s). Blocks; the engine dies with the calling thread. Throws the engine's own Error; kCancelled;
 // Preempted; kEngine where the launcher cannot be started or the engine ended without an answer, saying how.
 // options.volume is of no meaning here.

@@ -2,16 +2,13 @@
 
 #include <omp.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
-#include "engine/isosurface/parallel/choose_pillars.h"
-#include "engine/isosurface/parallel/stored_samples.h"
-#include "engine/render/composite/compose.h"
 #include "engine/session/camera_json.h"
-#include "engine/session/drawn_pieces.h"
 #include "engine/session/group_options.h"
+#include "engine/session/isosurface_picture.h"
 #include "engine/session/job_json.h"
-#include "engine/session/visible_render.h"
 #include "storage/base/partial_file.h"
 
 namespace footwall::session {
@@ -19,33 +16,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-// What a rank has of each isosurface.
-struct Extracted {
-  isosurface::Extraction extraction;
-  std::uint64_t first_id = 0;
-};
-
-Extracted extract_one(comm::Communicator& world, const RenderJob& job, const RenderJob::Isosurface& wanted,
-                      const JobContext& context) {
-  isosurface::StoredSamples samples(world, wanted.volume);
-  const auto cut = world.collectively([&] {
-    return job.interleave == "auto" ? isosurface::choose_interleaving(samples.info().dims, world.size(),
-                                                                      samples.bricks(), wanted.value, true)
-                                    : isosurface::parse_interleaving(job.interleave);
-  });
-  const isosurface::Pillars pillars(samples.info().dims, world.size(), cut);
-  isosurface::ParallelOptions options;
-  options.threads = job.threads;
-  options.bricks = &samples.bricks();
-  Extracted made;
-  isosurface::extract_parallel(world, pillars, samples.field_of(), wanted.value, options, context,
-                               made.extraction);
-  return made;
-}
-
 }  // namespace
 
-void write_render_job(const RenderJob& job, const std::filesystem::path& path) {
+Json json_of(const RenderJob& job) {
   Json json{{"footwall_render", 1},
             {"width", job.width},
             {"height", job.height},
@@ -62,13 +35,19 @@ void write_render_job(const RenderJob& job, const std::filesystem::path& path) {
                                    {"colour", surface.colour},
                                    {"placement", json_of(surface.placement)}});
   }
-  write_job_json(json, path, "the path " + job.layer.string() + " or a volume's: it is not UTF-8");
+  return json;
+}
+
+void write_render_job(const RenderJob& job, const std::filesystem::path& path) {
+  write_job_json(json_of(job), path, "the path " + job.layer.string() + " or a volume's: it is not UTF-8");
 }
 
 RenderJob read_render_job(const std::filesystem::path& path) {
-  const Json json = read_job_json(path);
-  const Error odd(ErrorCode::kFormat, path.string() + " is no render job of this version",
-                  "use footwall render");
+  return render_job_from(read_job_json(path), path.string());
+}
+
+RenderJob render_job_from(const Json& json, const std::string& what) {
+  const Error odd(ErrorCode::kFormat, what + " is no render job of this version", "use footwall render");
   try {
     if (json.at("footwall_render") != 1) throw odd;
     RenderJob job;
@@ -97,69 +76,31 @@ RenderJob read_render_job(const std::filesystem::path& path) {
 
 void run_render(const comm::Communicator& parent, const std::filesystem::path& job_path,
                 const JobContext& context) {
+  run_render(parent, parent.collectively([&] { return read_render_job(job_path); }), context);
+}
+
+void run_render(const comm::Communicator& parent, const RenderJob& job, const JobContext& context) {
   const double start = omp_get_wtime();
-  const RenderJob job = parent.collectively([&] { return read_render_job(job_path); });
   comm::Communicator world(parent.get());
-  if (job.visible) {
-    run_visible_render(world, job, context);
-    return;
+  std::map<std::filesystem::path, DrawnVolume> volumes;
+  const auto volume_of = [&](const std::filesystem::path& path) -> DrawnVolume& {
+    return volumes.try_emplace(path, world, path).first->second;
+  };
+  AfterPass after_pass;
+  if (job.visible && !job.visible->pass_layers.empty()) {
+    after_pass = [&](int pass, const render::SurfaceLayer& layer) {
+      world.collectively([&] {
+        if (world.rank() == 0) layer.write(job.visible->pass_layer(pass));
+      });
+    };
   }
-
-  std::vector<Extracted> extracted;
-  std::uint64_t triangles = 0;
-  Json counts = Json::array();
-  for (std::size_t n = 0; n < job.isosurfaces.size(); ++n) {
-    const auto share = static_cast<double>(job.isosurfaces.size());
-    const auto at = static_cast<double>(n);
-    extracted.push_back(
-        extract_one(world, job, job.isosurfaces[n], context.part(0.7 * at / share, 0.7 * (at + 1) / share)));
-    extracted.back().first_id = triangles;
-    triangles += extracted.back().extraction.triangles;
-    counts.push_back({{"triangles", extracted.back().extraction.triangles}});
-  }
-  DrawnPieces drawn;
-  world.collectively([&] {
-    for (std::size_t n = 0; n < extracted.size(); ++n) {
-      drawn.add(extracted[n].extraction.pieces, extracted[n].first_id, job.isosurfaces[n].colour,
-                job.isosurfaces[n].placement);
-    }
-    context.report(0.75, "draw");
-  });
-  render::ComposeOptions options{job.width, job.height, job.threads, {}};
-  options.groups = group_options(world, job.group_threshold, job.threads);
-  render::ComposeReport report;
-  render::Composer composer;
-  const render::SurfaceLayer layer =
-      composer.compose(world, drawn.surfaces(), job.camera, options, report, context.part(0.75, 0.95));
-
-  double read = 0;
-  double busy = 0;
-  for (const Extracted& each : extracted) {
-    read += each.extraction.read_seconds;
-    busy += each.extraction.busy_seconds;
-  }
-  Json seconds;
-  const auto slowest = [&](const char* phase, double mine) { seconds[phase] = world.maximum(mine); };
-  slowest("read", read);
-  slowest("extract", busy);
-  slowest("group", report.seconds.group);
-  slowest("project", report.seconds.project);
-  slowest("rasterize", report.seconds.rasterize);
-  slowest("shade", report.seconds.shade);
-  slowest("merge", report.seconds.merge);
-  slowest("gather", report.seconds.gather);
-  Json result{{"ranks", world.size()},
-              {"isosurfaces", counts},
-              {"bytes_sent", world.sum(report.bytes)},
-              {"messages", world.sum(report.messages)},
-              {"merged_bytes", world.sum(report.merged_bytes)},
-              {"merged_pixels", world.sum(report.merged_pixels)}};
+  Json result;
+  const render::SurfaceLayer layer = draw_isosurfaces(world, job, volume_of, context, after_pass, result);
   world.collectively([&] {
     context.report(0.95, "write");
     if (world.rank() != 0) return;
     layer.write(job.layer);
-    seconds["total"] = omp_get_wtime() - start;
-    result["seconds"] = seconds;
+    result["seconds"]["total"] = omp_get_wtime() - start;
     result["layer_bytes"] = layer.bytes();
     write_whole_file(job.result, result.dump(1) + "\n");
   });

@@ -3,6 +3,7 @@
 // else is drawn into. The layer's bytes depend on the job alone, not on the number of ranks.
 #pragma once
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,12 +43,17 @@ struct RenderJob {
 
 // Throws kIo, kUnsupported (a path that is not UTF-8).
 void write_render_job(const RenderJob& job, const std::filesystem::path& path);
+nlohmann::json json_of(const RenderJob& job);
 // Throws kNotFound, kFormat.
 RenderJob read_render_job(const std::filesystem::path& path);
+// what: names the job in errors.
+RenderJob render_job_from(const nlohmann::json& json, const std::string& what);
 
 // Collective; the same Error on every rank, and then no result: what reading volumes throws, kUsage for a
 // picture that cannot be, kUnsupported for too many triangles, kMemory, kCancelled on any rank.
 void run_render(const comm::Communicator& parent, const std::filesystem::path& job_path,
                 const JobContext& context);
+// The same; ranks give the same job.
+void run_render(const comm::Communicator& parent, const RenderJob& job, const JobContext& context);
 
 }  // namespace footwall::session

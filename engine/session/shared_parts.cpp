@@ -94,9 +94,10 @@ Part new_part(const Job& job, const JobFault& fault, Statistics statistics) {
 
 }  // namespace
 
-SharedParts::SharedParts(const comm::Communicator& world, const Job& job)
+SharedParts::SharedParts(const comm::Communicator& world, const Job& job, int writers)
     : world_(world.get()),
       job_(job),
+      writers_(std::clamp(writers, 1, world.size())),
       done_(job.faults.size()),
       statistics_(job.faults.size()),
       wholes_(job.faults.size()) {
@@ -120,7 +121,9 @@ SharedParts::SharedParts(const comm::Communicator& world, const Job& job)
   world_.collectively([&] {
     for (std::size_t r = 0; r < ranks; ++r) {
       std::vector<std::size_t> theirs;
-      for (std::size_t n = r; n < faults; n += ranks) theirs.push_back(n);
+      for (std::size_t n = 0; n < faults; ++n) {
+        if (writer_of(n) == static_cast<int>(r)) theirs.push_back(n);
+      }
       require(heard[r].size() >= theirs.size(), "a word about every part");
       std::span<const std::byte> contents = std::span(heard[r]).subspan(theirs.size());
       for (std::size_t each = 0; each < theirs.size(); ++each) {
@@ -136,19 +139,15 @@ SharedParts::SharedParts(const comm::Communicator& world, const Job& job)
   });
 }
 
-std::vector<std::vector<std::size_t>> SharedParts::groups(std::size_t faces) const {
-  std::vector<std::vector<std::size_t>> all;
-  std::size_t held = faces;
-  for (std::size_t n = 0; n < done_.size(); ++n) {
+std::vector<std::size_t> SharedParts::next_group(std::size_t faces) const {
+  std::vector<std::size_t> group;
+  std::size_t held = 0;
+  for (std::size_t n = 0; n < done_.size() && (group.empty() || held < faces); ++n) {
     if (done_[n]) continue;
-    if (held >= faces) {
-      all.emplace_back();
-      held = 0;
-    }
-    all.back().push_back(n);
+    group.push_back(n);
     held += job_.faults[n].faces.size();
   }
-  return all;
+  return group;
 }
 
 void SharedParts::write(const std::vector<std::size_t>& faults,

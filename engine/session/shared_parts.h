@@ -1,5 +1,5 @@
-// The part files of a job, shared out over ranks: the part of fault n is read and written by rank n mod
-// ranks.
+// The part files of a job, shared out over the first ranks, its writers: the part of fault n is read and
+// written by rank n mod writers.
 #pragma once
 #include <optional>
 #include <vector>
@@ -15,12 +15,12 @@ class SharedParts {
  public:
   // Collective. `job` must outlive this. Looks for the whole parts of an earlier run that belong to this very
   // job (the others, also damaged ones, are as good as not there), and brings their statistics to rank 0.
-  SharedParts(const comm::Communicator& world, const Job& job);
+  SharedParts(const comm::Communicator& world, const Job& job, int writers);
 
   bool done(std::size_t fault) const { return done_[fault]; }
   bool reused(std::size_t fault) const { return reused_[fault]; }
-  // Faults that are not done, in groups of about `faces` faces.
-  std::vector<std::vector<std::size_t>> groups(std::size_t faces) const;
+  // The next faults that are not done, with `faces` faces or a little more; empty when all are.
+  std::vector<std::size_t> next_group(std::size_t faces) const;
   // Collective: writes the parts of `faults`. `statistics` and `blobs`, on rank 0, have those of their faces
   // one after the other, `wholes` those of each fault in any order; they are not looked at elsewhere. Throws
   // kIo on all ranks.
@@ -32,10 +32,13 @@ class SharedParts {
   const std::vector<extract::FaceStatistics>& wholes() const { return wholes_; }
 
  private:
-  int writer_of(std::size_t fault) const { return static_cast<int>(fault) % world_.size(); }
+  int writer_of(std::size_t fault) const {
+    return static_cast<int>(fault % static_cast<std::size_t>(writers_));
+  }
 
   comm::Communicator world_;
   const Job& job_;
+  int writers_;
   std::vector<bool> done_, reused_;
   std::vector<std::vector<extract::FaceStatistics>> statistics_;
   std::vector<extract::FaceStatistics> wholes_;

@@ -1,5 +1,3 @@
-#include <omp.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -9,7 +7,6 @@
 #include "engine/session/group_options.h"
 #include "engine/session/visible_render.h"
 #include "engine/session/visible_surface.h"
-#include "storage/base/partial_file.h"
 
 namespace footwall::session {
 namespace {
@@ -18,22 +15,26 @@ using Json = nlohmann::json;
 
 class VisibleRender {
  public:
-  VisibleRender(comm::Communicator& world, const RenderJob& job, const JobContext& context)
+  VisibleRender(comm::Communicator& world, const RenderJob& job, const VolumeOf& volume_of,
+                const JobContext& context, const AfterPass& after_pass)
       : world_(world),
         job_(job),
+        volume_of_(volume_of),
         context_(context),
+        after_pass_(after_pass),
         groups_(group_options(world, job.group_threshold, job.threads)) {}
 
   void add(std::size_t n);
-  void finish();
+  render::SurfaceLayer finish(Json& result);
 
  private:
   std::optional<double> budget_of(std::size_t n) const;
 
   comm::Communicator& world_;
   const RenderJob& job_;
+  const VolumeOf& volume_of_;
   const JobContext& context_;
-  double start_ = omp_get_wtime();
+  const AfterPass& after_pass_;
   render::GroupOptions groups_;
   render::SurfaceLayer layer_;  // of the isosurfaces so far
   int passes_ = 0;
@@ -65,23 +66,19 @@ void VisibleRender::add(std::size_t n) {
   request.threads = job_.threads;
   request.budget_seconds = budget_of(n);
   VisibleSurface::AfterPass after_pass;
-  if (!job_.visible->pass_layers.empty()) {
+  if (after_pass_) {
     after_pass = [&](const render::SurfaceLayer& now) {
       ++passes_;
-      world_.collectively([&] {
-        if (world_.rank() != 0) return;
-        const std::filesystem::path file = job_.visible->pass_layer(passes_);
-        if (n == 0) {
-          now.write(file);
-        } else {
-          render::nearer_of(layer_, now).write(file);
-        }
-      });
+      if (n == 0) {
+        after_pass_(passes_, now);
+        return;
+      }
+      const render::SurfaceLayer both = world_.collectively(
+          [&] { return world_.rank() == 0 ? render::nearer_of(layer_, now) : render::SurfaceLayer(); });
+      after_pass_(passes_, both);
     };
   }
-  isosurface::StoredSamples samples(world_, wanted.volume);
-  VisibleSurface surface(samples);
-  DrawnVisible drawn = surface.draw(world_, request, groups_, part, after_pass);
+  DrawnVisible drawn = volume_of_(wanted.volume).visible().draw(world_, request, groups_, part, after_pass);
   read_ += drawn.read_seconds;
   extract_ += drawn.extract_seconds;
   const auto add_seconds = [&](double render::ComposeReport::Seconds::*phase) {
@@ -102,7 +99,7 @@ void VisibleRender::add(std::size_t n) {
   });
 }
 
-void VisibleRender::finish() {
+render::SurfaceLayer VisibleRender::finish(Json& result) {
   Json seconds;
   const auto slowest = [&](const char* phase, double mine) { seconds[phase] = world_.maximum(mine); };
   slowest("read", read_);
@@ -113,31 +110,25 @@ void VisibleRender::finish() {
   slowest("shade", composed_.seconds.shade);
   slowest("merge", composed_.seconds.merge);
   slowest("gather", composed_.seconds.gather);
-  Json result{{"ranks", world_.size()},
-              {"isosurfaces", isosurfaces_},
-              {"mode", name_of(job_.visible->mode)},
-              {"pass_layers", passes_},
-              {"bytes_sent", world_.sum(composed_.bytes)},
-              {"messages", world_.sum(composed_.messages)},
-              {"merged_bytes", world_.sum(composed_.merged_bytes)},
-              {"merged_pixels", world_.sum(composed_.merged_pixels)}};
-  world_.collectively([&] {
-    context_.report(0.95, "write");
-    if (world_.rank() != 0) return;
-    layer_.write(job_.layer);
-    seconds["total"] = omp_get_wtime() - start_;
-    result["seconds"] = seconds;
-    result["layer_bytes"] = layer_.bytes();
-    write_whole_file(job_.result, result.dump(1) + "\n");
-  });
+  result = {{"ranks", world_.size()},
+            {"isosurfaces", isosurfaces_},
+            {"mode", name_of(job_.visible->mode)},
+            {"pass_layers", passes_},
+            {"bytes_sent", world_.sum(composed_.bytes)},
+            {"messages", world_.sum(composed_.messages)},
+            {"merged_bytes", world_.sum(composed_.merged_bytes)},
+            {"merged_pixels", world_.sum(composed_.merged_pixels)}};
+  result["seconds"] = seconds;
+  return std::move(layer_);
 }
 
 }  // namespace
 
-void run_visible_render(comm::Communicator& world, const RenderJob& job, const JobContext& context) {
-  VisibleRender render(world, job, context);
+render::SurfaceLayer draw_visible(comm::Communicator& world, const RenderJob& job, const VolumeOf& volume_of,
+                                  const JobContext& context, const AfterPass& after_pass, Json& result) {
+  VisibleRender render(world, job, volume_of, context, after_pass);
   for (std::size_t n = 0; n < job.isosurfaces.size(); ++n) render.add(n);
-  render.finish();
+  return render.finish(result);
 }
 
 }  // namespace footwall::session

@@ -1,6 +1,7 @@
 // Only what can be seen of a stored isosurface, extracted and drawn on all ranks, in whichever mode.
 #pragma once
 #include <functional>
+#include <list>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,6 +25,8 @@ struct DrawnVisible {
   double extract_seconds = 0;        // the same, waiting included
 };
 
+// Keeps its part of the volume, and what the last picture of each of a few isovalues showed, for the next
+// one.
 class VisibleSurface {
  public:
   // Is given the picture as it is after each pass, whole on rank 0; collective.
@@ -51,10 +54,16 @@ class VisibleSurface {
                   const render::GroupOptions& groups, const JobContext& context, const AfterPass& after_pass,
                   DrawnVisible& drawn);
 
+  struct Picture {
+    float isovalue = 0;
+    isosurface::VisiblePicture drawn;
+  };
+  Picture& picture_of(float isovalue);
+
   isosurface::StoredSamples& samples_;
   isosurface::VisiblePieces pieces_;                 // mode `paper`
   std::optional<isosurface::BrickPillars> pillars_;  // mode `depth`
-  isosurface::VisiblePicture picture_;
+  std::list<Picture> pictures_;                      // of mode `depth`, the last one drawn in front
   std::vector<render::LitSurface> surfaces_;
 };
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -25,7 +26,23 @@ void check_memory(std::int64_t bytes, int ranks_here, const char* what, const ch
               hint);
 }
 
+// More than one picture shows.
+constexpr std::size_t kKeptPictures = 4;
+
 }  // namespace
+
+VisibleSurface::Picture& VisibleSurface::picture_of(float isovalue) {
+  const auto found = std::find_if(pictures_.begin(), pictures_.end(),
+                                  [&](const Picture& each) { return each.isovalue == isovalue; });
+  if (found != pictures_.end()) {
+    pictures_.splice(pictures_.begin(), pictures_, found);
+  } else {
+    if (pictures_.size() == kKeptPictures) pictures_.pop_back();
+    pictures_.emplace_front();
+    pictures_.front().isovalue = isovalue;
+  }
+  return pictures_.front();
+}
 
 DrawnVisible VisibleSurface::draw(comm::Communicator& world, VisibleRequest request,
                                   const render::GroupOptions& groups, const JobContext& context,
@@ -55,8 +72,11 @@ void VisibleSurface::draw_depth(comm::Communicator& world, const VisibleRequest&
                  ranks_here, "what can be seen needs a whole picture on every rank",
                  "give a smaller --size or fewer --ranks, or leave --visible out");
     context.report(0, "read");
-    pillars_.emplace(samples_.field_of(), request.volume_size, world.size(), world.rank(),
-                     isosurface::kVisibleInterleaving);
+    surfaces_.clear();  // of a picture that may go
+    if (!pillars_) {
+      pillars_.emplace(samples_.field_of(), request.volume_size, world.size(), world.rank(),
+                       isosurface::kVisibleInterleaving);
+    }
     context.report(0.5, "passes");
   });
   drawn.read_seconds = omp_get_wtime() - start;
@@ -72,13 +92,18 @@ void VisibleSurface::draw_depth(comm::Communicator& world, const VisibleRequest&
       aside += omp_get_wtime() - now;
     };
   }
-  picture_.forget();
-  drawn.layer = picture_.draw(world, pillars_->parts(), request, drawn.report, drawn.composed, tell);
+  isosurface::VisiblePicture& picture = picture_of(request.isovalue).drawn;
+  try {
+    drawn.layer = picture.draw(world, pillars_->parts(), request, drawn.report, drawn.composed, tell);
+  } catch (...) {
+    picture.forget();  // what it showed is half of a picture
+    throw;
+  }
   const render::ComposeReport::Seconds& composed = drawn.composed.seconds;
   drawn.extract_seconds = omp_get_wtime() - began - aside - composed.shade - composed.merge - composed.gather;
   world.collectively([&] {
     context.check();
-    const auto surfaces = picture_.drawing().frame().surfaces();
+    const auto surfaces = picture.drawing().frame().surfaces();
     surfaces_.assign(surfaces.begin(), surfaces.end());
   });
 }

@@ -33,7 +33,7 @@ constexpr const char* kScript = R"SH(#!/bin/bash
 #SBATCH --cpus-per-task={threads}
 #SBATCH --mem-per-cpu={megabytes}M
 #SBATCH --time={time}
-#SBATCH --signal=TERM@120
+#SBATCH --signal=B:USR1@120
 #SBATCH --requeue
 #SBATCH --open-mode=append
 #SBATCH --output=job-%j.log
@@ -59,8 +59,16 @@ if [ "${{start[0]}}" = srun ]; then
   start+=(--ntasks="${{SLURM_NTASKS:-{ranks}}}" --cpus-per-task="${{SLURM_CPUS_PER_TASK:-{threads}}}" --kill-on-bad-exit=1)
 fi
 
-"${{start[@]}}" "$engine" batch JOB.json ${{FOOTWALL_VOLUME:+--volume "$FOOTWALL_VOLUME"}}
-status=$?
+"${{start[@]}}" "$engine" batch JOB.json ${{FOOTWALL_VOLUME:+--volume "$FOOTWALL_VOLUME"}} &
+ranks=$!
+# Slurm tells this script (B:) two minutes before the end; srun and mpirun tell the ranks. A wait ends with a signal.
+trap 'told=1; kill -USR1 "$ranks"' USR1 TERM
+while :; do
+  told=
+  wait "$ranks"
+  status=$?
+  [ -n "$told" ] || break
+done
 # 75: Slurm wants the processors back, or the time is up. What is done is kept; the next run goes on from there.
 if [ "$status" -eq 75 ] && [ -n "$SLURM_JOB_ID" ]; then
   scontrol requeue "$SLURM_JOB_ID"

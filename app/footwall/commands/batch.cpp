@@ -24,13 +24,15 @@ extern "C" void terminate_and_cancel(int number) {
   g_cancel(number);
 }
 
-// SIGTERM is how batch systems ask for their processors: the same as Ctrl+C, but with another exit status.
+// SIGTERM and SIGUSR1 are how batch systems ask for their processors: the same as Ctrl+C, but with another
+// exit status.
 void notice_termination() {
   struct sigaction action = {};
   ::sigaction(SIGTERM, nullptr, &action);
   g_cancel = action.sa_handler;
   action.sa_handler = terminate_and_cancel;
   ::sigaction(SIGTERM, &action, nullptr);
+  ::sigaction(SIGUSR1, &action, nullptr);
 }
 
 console::Output run(const Options& options, const console::Console& console) {

@@ -46,6 +46,9 @@ class OpenVolumes {
   };
   Found locate(const v1::VolumeName& name);
 
+  // The same on rank 0 alone.
+  Found locate_here(const v1::VolumeName& name);
+
   // Loads it, or finds it open. Collective. Throws as locate(), kMemory with what it needs and what is free
   // before anything is read, kCancelled.
   OpenVolume& open(const v1::VolumeName& name, const JobContext& job);
@@ -59,7 +62,6 @@ class OpenVolumes {
   std::uint64_t hash() const;
 
  private:
-  Found locate_here(const v1::VolumeName& name);
   void refuse_too_large(const std::vector<std::int64_t>& stay, const std::vector<std::int64_t>& pass,
                         const std::filesystem::path& path) const;
   std::int64_t on_this_host(const std::vector<std::int64_t>& rank_bytes) const;

@@ -7,6 +7,7 @@ import shutil
 import signal
 import stat
 import subprocess
+import time
 import unittest
 
 from support import BIN, FootwallTest
@@ -258,16 +259,61 @@ exec mpirun --bind-to none --oversubscribe -n 3 "$@"
         project = self.synthetic(size="200x200x200")
         self.footwall("extract", project, "--write-job", "job", "--ranks", 2)
         (self.folder / "tmp").mkdir()
-        program, below, ranks = self.running("batch", "job/JOB.json", "--ranks", "2", "--json")
-        os.kill(ranks[0], signal.SIGTERM)  # as Slurm does it, to the tasks
-        for rank in ranks:
-            os.kill(rank, signal.SIGCONT)
-        answer, words = program.communicate(timeout=120)
-        self.assertEqual(program.returncode, 75, answer + words)
-        self.assertIn("goes on", json.loads(answer)["error"]["hint"])
-        self.assert_gone(below)
+        for number, whom in ((signal.SIGTERM, "rank"), (signal.SIGUSR1, "rank"), (signal.SIGUSR1, "footwall")):
+            with self.subTest(signal=number.name, sent_to=whom):
+                program, below, ranks = self.running("batch", "job/JOB.json", "--ranks", "2", "--json")
+                os.kill(ranks[0] if whom == "rank" else program.pid, number)  # as Slurm does it, to tasks or to the script
+                for rank in ranks:
+                    os.kill(rank, signal.SIGCONT)
+                told = time.monotonic()
+                answer, words = program.communicate(timeout=120)
+                self.assertLess(time.monotonic() - told, 20, "Slurm would have killed it")
+                self.assertEqual(program.returncode, 75, answer + words)
+                self.assertIn("goes on", json.loads(answer)["error"]["hint"])
+                self.assert_gone(below)
         done = self.footwall("batch", "job/JOB.json", "--ranks", 2)
         self.assertEqual(done["checksum"], self.footwall("extract", project, "--ranks", 1)["checksum"])
+
+    def test_the_log_tells_what_each_rank_did(self):
+        project = self.synthetic()
+        self.footwall("extract", project, "--write-job", "job", "--ranks", 2)
+        for _ in range(2):
+            self.footwall("batch", "job/JOB.json", "--ranks", 2)
+        result = json.loads((self.folder / "job/parts/result.json").read_text())
+        self.assertEqual([each["rank"] for each in result["each_rank"]], [0, 1])
+        for each in result["each_rank"]:
+            self.assertEqual(each["host"], os.uname().nodename)
+            self.assertGreater(each["peak_memory_bytes"], 1 << 20)
+            self.assertLessEqual(each["seconds"]["voxelize"], each["seconds"]["total"])
+        log = (self.folder / "job/parts/log.txt").read_text().splitlines()
+        self.assertEqual([line.split()[-1] for line in log if not line.startswith(" ")], ["done", "done"])
+        self.assertEqual(sum(line.startswith("  rank ") for line in log), 4)
+
+    def test_the_script_for_slurm_passes_its_signal_on_and_comes_back(self):
+        project = self.synthetic(size="200x200x200")
+        self.footwall("extract", project, "--write-job", "job", "--ranks", 2)
+        self.script("bin/srun", """
+if [ "$1" = --mpi=list ]; then printf 'MPI plugin types are...\\n\\tpmix\\n'; exit; fi
+while [ "${1#--}" != "$1" ]; do shift; done
+exec mpirun --bind-to none --oversubscribe -n 2 "$@"
+""")
+        self.script("bin/scontrol", f'echo "$@" > {self.folder}/requeued')
+        script = subprocess.Popen(["bash", "job.sbatch"], cwd=self.folder / "job", text=True, stderr=subprocess.PIPE, env={
+            **os.environ, **AS_ROOT, "PATH": f"{self.folder / 'bin'}:{os.environ['PATH']}", "SLURM_JOB_ID": "7",
+            "SLURM_NTASKS": "2", "FOOTWALL_ENGINE": str(BIN / "footwall-engine")})
+        ranks = []
+        while len(ranks) < 2 and script.poll() is None:
+            ranks = [process for process in children(script.pid) if is_rank(process)]
+        for rank in ranks:
+            os.kill(rank, signal.SIGSTOP)
+        self.assertIsNone(script.poll(), "it ended before it could be told")
+        script.send_signal(signal.SIGUSR1)
+        for rank in ranks:
+            os.kill(rank, signal.SIGCONT)
+        _, words = script.communicate(timeout=120)
+        self.assertEqual(script.returncode, 75, words)
+        self.assertEqual((self.folder / "requeued").read_text(), "requeue 7\n")
+        self.assert_gone(ranks)
 
 
 if __name__ == "__main__":

@@ -197,6 +197,21 @@ TEST_F(Batch, TheVolumeMayBeElsewhere) {
   on_root([&] { EXPECT_EQ(result()["threads"], 2); });
 }
 
+TEST_F(Batch, OneWriterWritesTheSameParts) {
+  run();
+  const std::string checksum = result()["checksum"];
+  on_root([&] { std::filesystem::remove_all(path / "out"); });
+  BatchOptions options;
+  options.one_writer = true;
+  run_batch(world, path / "JOB.json", {}, options);
+  EXPECT_EQ(result()["checksum"], checksum);
+  // Parts are found again, whoever wrote them.
+  run_batch(world, path / "JOB.json", {}, options);
+  for (const auto& part : result()["parts"]) EXPECT_TRUE(part["reused"].get<bool>());
+  run();
+  for (const auto& part : result()["parts"]) EXPECT_TRUE(part["reused"].get<bool>());
+}
+
 TEST_F(Batch, TroubleIsTheSameErrorOnAllRanks) {
   const auto expect = [&](ErrorCode code, const std::string& words) {
     const std::optional<Error> error = error_of_run();
