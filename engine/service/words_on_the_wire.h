@@ -1,0 +1,18 @@
+// Names that client and server must spell alike, beside those of engine.proto.
+#pragma once
+
+namespace footwall::service {
+
+// Metadata of every call, and of a call that failed: a v1::Failure in bytes.
+inline constexpr const char* kTokenMetadata = "footwall-token";
+inline constexpr const char* kFailureMetadata = "footwall-error-bin";
+// The subject (CN) and DNS name of an engine's certificate, whatever host it runs on: clients pin the
+// certificate itself.
+inline constexpr const char* kCertificateName = "footwall-engine";
+// The environment variable through which an engine gets its token, and a client may.
+inline constexpr const char* kTokenVariable = "FOOTWALL_ENGINE_TOKEN";
+// Clients ask whether the other side is still there so often while a call runs: servers must bear it
+// (GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS).
+inline constexpr int kShortestPingMilliseconds = 500;
+
+}  // namespace footwall::service
