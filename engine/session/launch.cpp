@@ -42,24 +42,6 @@ std::vector<std::string> batch_words(const LaunchOptions& options, const std::fi
   return words;
 }
 
-std::vector<std::string> with_engine(std::vector<std::string> command, const LaunchOptions& options,
-                                     const std::vector<std::string>& words) {
-  command.push_back(engine_program(options).string());
-  command.insert(command.end(), words.begin(), words.end());
-  return command;
-}
-
-std::string how_it_ended(int status) {
-  // mpirun ends with 128 + n where a rank was killed by signal n.
-  int signal = 0;
-  if (WIFSIGNALED(status)) signal = WTERMSIG(status);
-  if (WIFEXITED(status) && WEXITSTATUS(status) > 128) signal = WEXITSTATUS(status) - 128;
-  if (signal > 0 && signal < 65) {
-    return "was killed by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
-  }
-  return "ended with exit status " + std::to_string(WIFEXITED(status) ? WEXITSTATUS(status) : -1);
-}
-
 // What the engine says on its output, line by line.
 class Listener {
  public:
@@ -142,9 +124,28 @@ std::filesystem::path engine_program(const LaunchOptions& options) {
   return self.parent_path() / "footwall-engine";
 }
 
+EngineCommand engine_command(const LaunchOptions& options, const std::vector<std::string>& words,
+                             const std::filesystem::path& folder) {
+  Launcher launcher = choose_launcher(ranks_of(options), threads_of(options), folder);
+  EngineCommand command{std::move(launcher.words), std::move(launcher.settings)};
+  command.words.push_back(engine_program(options).string());
+  command.words.insert(command.words.end(), words.begin(), words.end());
+  return command;
+}
+
 std::vector<std::string> launch_command(const LaunchOptions& options, const std::filesystem::path& job) {
-  return with_engine(choose_launcher(ranks_of(options), threads_of(options), {}).words, options,
-                     batch_words(options, job));
+  return engine_command(options, batch_words(options, job), {}).words;
+}
+
+std::string how_it_ended(int status) {
+  // mpirun ends with 128 + n where a rank was killed by signal n.
+  int signal = 0;
+  if (WIFSIGNALED(status)) signal = WTERMSIG(status);
+  if (WIFEXITED(status) && WEXITSTATUS(status) > 128) signal = WEXITSTATUS(status) - 128;
+  if (signal > 0 && signal < 65) {
+    return "was killed by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
+  }
+  return "ended with exit status " + std::to_string(WIFEXITED(status) ? WEXITSTATUS(status) : -1);
 }
 
 std::string run_engine(const LaunchOptions& options, const std::filesystem::path& job_path,
@@ -158,9 +159,10 @@ std::string run_engine(const LaunchOptions& options, const EngineTask& task, con
   const std::filesystem::path& result = task.result;
   std::error_code ignored;
   std::filesystem::remove(result, ignored);  // an older one must not be taken for this run's
+  if (options.running) return options.running->run(task, options, job);
   const PrivateFolder folder(home_in_memory());
-  const Launcher launcher = choose_launcher(ranks_of(options), threads_of(options), folder.path());
-  Child child(with_engine(launcher.words, options, task.words), launcher.settings);
+  const EngineCommand command = engine_command(options, task.words, folder.path());
+  Child child(command.words, command.settings);
   Listener listener(job);
   Stopper stopper;
   while (child.read_lines(100, [&](const std::string& line) { listener.line(line); })) {

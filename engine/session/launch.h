@@ -2,6 +2,7 @@
 // MPI in here: the command line and the editor use it.
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,11 +11,16 @@
 
 namespace footwall::session {
 
+class RunningEngine;
+
 struct LaunchOptions {
   int ranks = 0;                 // 0 = default_ranks()
   int threads = 0;               // OpenMP threads of each rank; 0 = default_threads()
   std::filesystem::path engine;  // footwall-engine; empty = beside this program
   std::filesystem::path volume;  // where the volume is here; empty = where the job says
+  // Does the tasks instead of ranks that would be started for each; the others are then of no meaning, but
+  // for `volume`.
+  std::shared_ptr<RunningEngine> running;
 };
 
 // Inside an allocation of Slurm its tasks; else min(4, cores that this process may use).
@@ -30,6 +36,17 @@ std::filesystem::path engine_program(const LaunchOptions& options);
 // The command that would run: the launcher's words (launcher.h), then the engine, "batch", the job.
 std::vector<std::string> launch_command(const LaunchOptions& options, const std::filesystem::path& job);
 
+// The launcher's words and what is run under it, and "NAME=value" for its environment. words: of
+// footwall-engine, its command first. folder: of this run, for MPI's files; may be empty. Throws kEngine.
+struct EngineCommand {
+  std::vector<std::string> words;
+  std::vector<std::string> settings;
+};
+EngineCommand engine_command(const LaunchOptions& options, const std::vector<std::string>& words,
+                             const std::filesystem::path& folder);
+// "was killed by signal 9 (Killed)", "ended with exit status 1": of a status as waitpid() gives it.
+std::string how_it_ended(int status);
+
 // The job's ranks were told to make room (SIGTERM or SIGUSR1 from a batch system): what is done is kept, and the next
 // run goes on from there. Its code is kCancelled.
 class Preempted : public Error {
@@ -41,6 +58,15 @@ class Preempted : public Error {
 struct EngineTask {
   std::vector<std::string> words;  // the command and what follows, as {"batch", "/jobs/JOB.json"}
   std::filesystem::path result;    // one that stands there before is removed
+};
+
+// An engine that is there already, and does tasks one after the other.
+class RunningEngine {
+ public:
+  virtual ~RunningEngine() = default;
+  // As run_engine() below, which calls it. Every file of the job is read and written on this machine,
+  // wherever the engine is.
+  virtual std::string run(const EngineTask& task, const LaunchOptions& options, const JobContext& job) = 0;
 };
 
 // Runs the task and returns the text of its result. Progress of the ranks is reported to `job`,
