@@ -1,6 +1,8 @@
 // An engine of this machine that a program starts for itself: started when first needed, started again when
 // it died.
 #pragma once
+#include <chrono>
+#include <deque>
 #include <functional>
 #include <memory>
 
@@ -8,6 +10,16 @@
 #include "engine/session/launch.h"
 
 namespace footwall::service {
+
+// How often an engine died lately: who starts it again wants to know when that leads nowhere.
+class DeathCount {
+ public:
+  // One more; false where it was the third within a minute.
+  bool add();
+
+ private:
+  std::deque<std::chrono::steady_clock::time_point> deaths_;
+};
 
 class LocalEngine {
  public:

@@ -1,0 +1,198 @@
+// The two kinds of streams as a thread that waits sees them: messages one after the other, a cancel that is
+// looked for all the time, and an end that is always waited for.
+//
+// gRPC's own threads receive, so that a connection is looked after also while nobody asks for its messages.
+#pragma once
+#include <grpcpp/grpcpp.h>
+#include <grpcpp/support/client_callback.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+
+#include "engine/service/client/detail/call_end.h"
+
+namespace footwall::service {
+
+// How soon a cancel of the JobContext is seen.
+inline constexpr std::chrono::milliseconds kCancelInterval{20};
+
+// What both kinds have in common: one message at a time is received ahead, and kept until asked for. Reactor:
+// the gRPC class that receives Replies.
+template <class Reactor, class Reply>
+class Answers : public Reactor {
+ public:
+  explicit Answers(grpc::ClientContext& context) : context_(context) {}
+  Answers(const Answers&) = delete;
+  Answers& operator=(const Answers&) = delete;
+
+  // The next message; false when there is none, and the call has ended.
+  bool next(Reply& to, const JobContext& job) {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      if (received_ && !told_) {
+        std::swap(to, message_);
+        receive();
+        return true;
+      }
+      if (received_) receive();
+      if (done_) return false;
+      if (!told_ && job.cancelled()) tell();
+      changed_.wait_for(lock, kCancelInterval);
+    }
+  }
+  // After next() said false. Cancelled by us: kCancelled, whatever the other side made of it.
+  void throw_unless_ok() {
+    const std::unique_lock lock(mutex_);
+    if (told_) throw Error(ErrorCode::kCancelled, "cancelled");
+    service::throw_unless_ok(status_, context_);
+  }
+  void cancel() {
+    const std::unique_lock lock(mutex_);
+    tell();
+  }
+  // The call's error, where it has ended with one.
+  void throw_if_failed() {
+    const std::unique_lock lock(mutex_);
+    if (done_) service::throw_unless_ok(status_, context_);
+  }
+
+  void OnReadDone(bool good) override {
+    const std::unique_lock lock(mutex_);
+    received_ = good;
+    if (!good) {
+      ended_ = true;
+      this->RemoveHold();
+    }
+    changed_.notify_all();
+  }
+  void OnDone(const grpc::Status& status) override {
+    const std::unique_lock lock(mutex_);
+    status_ = status;
+    done_ = true;
+    changed_.notify_all();
+  }
+
+ protected:
+  ~Answers() override = default;
+
+  // The call was set up: begins. The hold lets operations begin outside of gRPC's callbacks, until the end of
+  // what is received.
+  void begin() {
+    const std::unique_lock lock(mutex_);
+    this->AddHold();
+    this->StartRead(&message_);
+    this->StartCall();
+  }
+  // No callback comes any more.
+  void end() {
+    std::unique_lock lock(mutex_);
+    while (!done_) {
+      tell();
+      if (received_) receive();
+      changed_.wait(lock);
+    }
+  }
+  std::mutex& mutex() { return mutex_; }
+  std::condition_variable& changed() { return changed_; }
+  bool ended() const { return ended_; }
+  void tell() {
+    if (!std::exchange(told_, true)) context_.TryCancel();
+  }
+
+ private:
+  void receive() {
+    received_ = false;
+    message_.Clear();
+    this->StartRead(&message_);
+  }
+
+  grpc::ClientContext& context_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  Reply message_;
+  bool received_ = false;
+  bool ended_ = false;  // no message comes any more
+  bool told_ = false;   // to cancel
+  bool done_ = false;
+  grpc::Status status_;
+};
+
+template <class Reply>
+class AnswerStream final : public Answers<grpc::ClientReadReactor<Reply>, Reply> {
+ public:
+  using Base = Answers<grpc::ClientReadReactor<Reply>, Reply>;
+  // start(reactor): hands the call to gRPC.
+  template <class Start>
+  AnswerStream(grpc::ClientContext& context, const Start& start) : Base(context) {
+    start(this);
+    this->begin();
+  }
+  ~AnswerStream() override { this->end(); }
+};
+
+template <class Request, class Reply>
+class Conversation final : public Answers<grpc::ClientBidiReactor<Request, Reply>, Reply> {
+ public:
+  using Base = Answers<grpc::ClientBidiReactor<Request, Reply>, Reply>;
+  template <class Start>
+  Conversation(grpc::ClientContext& context, const Start& start) : Base(context) {
+    start(this);
+    this->begin();
+  }
+  ~Conversation() override { this->end(); }
+
+  // Puts a message on its way; false where nobody listens any more.
+  bool send(Request message) {
+    const std::unique_lock lock(this->mutex());
+    if (this->ended() || broken_ || last_) return false;
+    waiting_.push_back(std::move(message));
+    go_on();
+    return true;
+  }
+  // Waits until at most `most` messages are on their way; false where nobody listens any more.
+  bool wait_for_room(std::size_t most, const JobContext& job) {
+    std::unique_lock lock(this->mutex());
+    while (waiting_.size() > most && !this->ended() && !broken_) {
+      if (job.cancelled()) this->tell();
+      this->changed().wait_for(lock, kCancelInterval);
+    }
+    return !this->ended() && !broken_;
+  }
+  // Nothing more is sent.
+  void send_no_more() {
+    const std::unique_lock lock(this->mutex());
+    last_ = true;
+    go_on();
+  }
+
+  void OnWriteDone(bool good) override {
+    const std::unique_lock lock(this->mutex());
+    waiting_.pop_front();
+    busy_ = false;
+    broken_ = broken_ || !good;
+    go_on();
+    this->changed().notify_all();
+  }
+
+ private:
+  void go_on() {
+    if (busy_ || broken_ || this->ended() || closed_) return;
+    if (!waiting_.empty()) {
+      busy_ = true;
+      this->StartWrite(&waiting_.front());
+    } else if (last_) {
+      closed_ = true;
+      this->StartWritesDone();
+    }
+  }
+
+  std::deque<Request> waiting_;  // the first is being sent
+  bool busy_ = false;
+  bool broken_ = false;
+  bool last_ = false;
+  bool closed_ = false;
+};
+
+}  // namespace footwall::service

@@ -1,0 +1,17 @@
+// How a call to an engine begins and ends.
+#pragma once
+#include <grpcpp/grpcpp.h>
+
+#include <string>
+
+#include "storage/base/error.h"
+#include "storage/base/job_context.h"
+
+namespace footwall::service {
+
+// What a call that did not end well says: the engine's own Error where it sent one; else kCancelled,
+// kInvalid for a token that it does not know, and kEngine where it is gone.
+Error error_of(const grpc::Status& status, const grpc::ClientContext& context);
+void throw_unless_ok(const grpc::Status& status, const grpc::ClientContext& context);
+
+}  // namespace footwall::service

@@ -1,0 +1,77 @@
+#include "engine/service/client/detail/live_stream.h"
+
+#include <exception>
+#include <thread>
+#include <utility>
+
+#include "engine/service/client/detail/answers.h"
+#include "engine/service/words_on_the_wire.h"
+#include "storage/base/error.h"
+
+namespace footwall::service {
+namespace {
+
+class Live final : public EngineClient::LiveStream {
+ public:
+  Live(v1::Engine::Stub& stub, const std::string& token, v1::LiveRequest first,
+       std::function<void(const v1::LiveReply&)> answer)
+      : answer_(std::move(answer)),
+        talk_(prepared(token), [&](auto* reactor) { stub.async()->Live(&context_, reactor); }) {
+    talk_.send(std::move(first));
+    listener_ = std::thread([this] { listen(); });
+  }
+  ~Live() override {
+    if (!listener_.joinable()) return;
+    talk_.cancel();
+    listener_.join();
+  }
+
+  void send(const v1::EditBatch& batch) override {
+    v1::LiveRequest request;
+    *request.mutable_batch() = batch;
+    if (talk_.send(std::move(request))) return;
+    finish();
+    throw Error(ErrorCode::kEngine, "the engine has ended the stream of edits", "open another one");
+  }
+
+  void finish() override {
+    talk_.send_no_more();
+    if (listener_.joinable()) listener_.join();
+    if (failed_) std::rethrow_exception(failed_);
+    talk_.throw_unless_ok();
+  }
+
+ private:
+  grpc::ClientContext& prepared(const std::string& token) {
+    context_.AddMetadata(kTokenMetadata, token);
+    return context_;
+  }
+  void listen() {
+    v1::LiveReply reply;
+    while (talk_.next(reply, {})) {
+      if (failed_) continue;
+      try {
+        answer_(reply);
+      } catch (...) {
+        failed_ = std::current_exception();  // thrown to whoever asks next
+        talk_.cancel();
+      }
+    }
+  }
+
+  std::function<void(const v1::LiveReply&)> answer_;
+  grpc::ClientContext context_;
+  Conversation<v1::LiveRequest, v1::LiveReply> talk_;
+  std::exception_ptr failed_;
+  std::thread listener_;
+};
+
+}  // namespace
+
+std::unique_ptr<EngineClient::LiveStream> open_live_stream(v1::Engine::Stub& stub, const std::string& token,
+                                                           v1::LiveRequest first,
+                                                           std::function<void(const v1::LiveReply&)> answer) {
+  return std::make_unique<Live>(stub, token, std::move(first), std::move(answer));
+}
+
+}  // namespace footwall::service
