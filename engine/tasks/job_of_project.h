@@ -7,6 +7,7 @@
 
 #include "engine/session/job.h"
 #include "engine/session/launch.h"
+#include "engine/tasks/fault_faces.h"
 #include "storage/base/job_context.h"
 #include "storage/project/project.h"
 
@@ -30,9 +31,6 @@ struct JobOfProject {
   std::vector<std::string> triangulated;  // faults whose mesh was made first
   std::vector<std::string> skipped;       // faults that could not be made a surface, with the reason
 };
-
-// What becomes of a mesh that had to be made because pillars changed since the last one.
-enum class FreshMeshes : std::uint8_t { kStored, kThrownAway };
 
 // With kThrownAway the project is not written to, and may be open for reading only. Throws kUsage for names
 // that are not built, kInvalid where no fault has a surface, kNotFound for a missing volume.
