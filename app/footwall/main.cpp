@@ -12,7 +12,8 @@ int main(int argc, char** argv) {
                          commands::add_faces,       commands::add_isosurface,  commands::add_export,
                          commands::add_render,      commands::add_views,       commands::add_pack,
                          commands::add_relink,      commands::add_doctor,      commands::add_workload,
-                         commands::add_bench}) {
+                         commands::add_bench,       commands::add_serve,       commands::add_status,
+                         commands::add_stop}) {
     add(program);
   }
   return program.run(argc, argv);

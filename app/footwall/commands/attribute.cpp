@@ -64,7 +64,7 @@ void add_attribute(console::Program& program) {
   command->add_option("--window", options->window,
                       "Odd numbers of inlines x crosslines x samples (default 3x3x9)");
   command->add_option("--name", options->how.name, "Name of the new volume (default: VOLUME discontinuity)");
-  options->engine.add_to(*command);
+  options->engine.add_to(*command, true);
 }
 
 }  // namespace footwall::commands

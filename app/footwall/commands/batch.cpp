@@ -67,7 +67,7 @@ void add_batch(console::Program& program) {
                                   [options](console::Console& console) { return run(*options, console); });
   command->add_option("job", options->job, "The job's JOB.json")->required();
   command->add_option("--volume", options->volume, "Where the volume is here (default: where the job says)");
-  options->engine.add_to(*command);
+  options->engine.add_to(*command, true);
 }
 
 }  // namespace footwall::commands

@@ -214,7 +214,7 @@ void add_extract(console::Program& program) {
   command->add_option("--volume", how.volume, "The volume (default: the first)");
   command->add_option("--fault", how.fault, "Only this fault (default: all)");
   command->add_option("--name", how.name, "Name of the run (default: run N)");
-  options->engine.add_to(*command);
+  options->engine.add_to(*command, true);
   command->add_option(
       "--exchange", how.engine.exchange,
       "How values reach a face's rank: " + names(extract::exchange_rows()) + " (default auto)");

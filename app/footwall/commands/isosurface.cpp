@@ -158,7 +158,7 @@ void add_isosurface(console::Program& program) {
   command->add_option(
       "--exaggeration", options->exaggeration,
       "With --visible: of heights, as of footwall render (default: the saved view's, or chosen)");
-  options->engine.add_to(*command);
+  options->engine.add_to(*command, true);
 }
 
 }  // namespace footwall::commands

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/service/client/running_tasks.h"
+
 namespace footwall::commands {
 namespace {
 
@@ -10,7 +12,14 @@ constexpr int kMostRanks = 1024;
 
 }  // namespace
 
-void EngineOptions::add_to(CLI::App& command) {
+void EngineOptions::add_running_to(CLI::App& command) {
+  command.add_option(
+      "--engine", running,
+      "A running engine to use: @FILE that footwall serve wrote, or unix:PATH or tcp:HOST:PORT "
+      "(default: one is started)");
+}
+
+void EngineOptions::add_to(CLI::App& command, bool running_too) {
   command.add_option(
       "--ranks", ranks,
       "MPI ranks (default: the tasks of Slurm's allocation, else the smaller of 4 and the usable "
@@ -18,6 +27,7 @@ void EngineOptions::add_to(CLI::App& command) {
   command.add_option(
       "--threads", threads,
       "Threads of each rank (default: the processors of a task of Slurm's allocation, else 1)");
+  if (running_too) add_running_to(command);
 }
 
 session::LaunchOptions EngineOptions::launch() const {
@@ -31,6 +41,12 @@ session::LaunchOptions EngineOptions::launch() const {
   session::LaunchOptions launch;
   launch.ranks = ranks.value_or(0);
   launch.threads = threads.value_or(0);
+  if (running.empty()) return launch;
+  if (ranks) {
+    throw Error(ErrorCode::kUsage, "--ranks cannot be used with --engine: a running engine has its ranks",
+                "leave one of the two out");
+  }
+  launch.running = service::running_tasks(service::connection_from(running));
   return launch;
 }
 

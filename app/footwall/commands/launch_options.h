@@ -9,9 +9,12 @@ namespace footwall::commands {
 
 struct EngineOptions {
   std::optional<int> ranks, threads;
+  std::string running;  // --engine: one that runs already
 
-  void add_to(CLI::App& command);
-  // Throws Error kUsage for numbers that cannot be.
+  // running_too: with --engine, for commands whose jobs a running engine does.
+  void add_to(CLI::App& command, bool running_too = false);
+  void add_running_to(CLI::App& command);
+  // Throws Error kUsage for numbers that cannot be, and for --ranks with --engine; as connection_from().
   session::LaunchOptions launch() const;
 };
 

@@ -137,6 +137,7 @@ void add_render(console::Program& program) {
   command->add_option("--ranks", options->engine.ranks,
                       "MPI ranks for isosurfaces (default: the tasks of Slurm's allocation, else the smaller "
                       "of 4 and the usable cores)");
+  options->engine.add_running_to(*command);
   command->add_option(
       "--group-threshold", options->group_threshold,
       "Ranks share triangles rather than pictures up to this share of a picture's bytes "
