@@ -53,9 +53,12 @@ Replayed replay_project(project::Project& project, service::EngineClient& engine
   MeshNotes notes;
   const std::vector<project::FaultRecord> faults = project.faults();
   for (std::size_t n = 0; n < faults.size(); ++n) {
-    job.report(0.8 + 0.2 * static_cast<double>(n) / static_cast<double>(faults.size()), "model",
-               fmt::format("{} of {} faults", n, faults.size()));
-    const auto mesh = fresh_mesh(project, faults[n], false, FreshMeshes::kThrownAway, notes, job);
+    const auto at = [&](std::size_t fault) {
+      return 0.8 + 0.2 * static_cast<double>(fault) / static_cast<double>(faults.size());
+    };
+    const JobContext part = job.part(at(n), at(n + 1));
+    part.report(0, "model", fmt::format("{} of {} faults", n, faults.size()));
+    const auto mesh = fresh_mesh(project, faults[n], false, FreshMeshes::kThrownAway, notes, part);
     if (!mesh) continue;
     // One batch each, so that no message grows with the project.
     const std::uint64_t edit = batch.edit() + 1;

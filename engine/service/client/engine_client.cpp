@@ -41,7 +41,7 @@ grpc::ChannelArguments arguments_for(const Connection& connection) {
   // that is gone; on this machine they would only find an engine that somebody has stopped for a while.
   const bool remote = connection.address.starts_with("tcp:");
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, remote ? 2 * kShortestPingMilliseconds - 100 : 10000);
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, remote ? 1000 : 20000);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, remote ? 800 : 20000);
   arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
   return arguments;
 }
