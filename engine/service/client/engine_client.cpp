@@ -1,6 +1,7 @@
 #include "engine/service/client/engine_client.h"
 
 #include <fmt/format.h>
+#include <grpc/grpc.h>
 #include <grpc/support/log.h>
 #include <grpcpp/grpcpp.h>
 
@@ -22,10 +23,16 @@ constexpr std::chrono::seconds kPatience{2};
 constexpr int kLargestMessage = 64 << 20;
 constexpr std::size_t kFilePiece = std::size_t{1} << 20;
 
-// gRPC prints its own words on standard error, which say less than ours.
-void silence_grpc() {
-  if (std::getenv("GRPC_VERBOSITY") == nullptr)
-    gpr_set_log_verbosity(static_cast<gpr_log_severity>(GPR_LOG_SEVERITY_ERROR + 1));
+// gRPC prints its own words on standard error, which say less than ours. And it is kept for the life of the
+// program: where its last object goes while a call is being put away, its shutdown waits ten seconds for
+// that.
+void prepare_grpc() {
+  [[maybe_unused]] static const bool kOnce = [] {
+    grpc_init();
+    if (std::getenv("GRPC_VERBOSITY") == nullptr)
+      gpr_set_log_verbosity(static_cast<gpr_log_severity>(GPR_LOG_SEVERITY_ERROR + 1));
+    return true;
+  }();
 }
 
 grpc::ChannelArguments arguments_for(const Connection& connection) {
@@ -47,7 +54,7 @@ grpc::ChannelArguments arguments_for(const Connection& connection) {
 }
 
 std::shared_ptr<grpc::Channel> channel_to(const Connection& connection) {
-  silence_grpc();
+  prepare_grpc();
   grpc::ChannelArguments arguments = arguments_for(connection);
   if (connection.address.starts_with("unix:"))
     return grpc::CreateCustomChannel(connection.address, grpc::InsecureChannelCredentials(), arguments);

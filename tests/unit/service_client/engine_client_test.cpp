@@ -190,7 +190,7 @@ TEST_F(Client, FilesOfATaskTravelWhole) {
   EXPECT_EQ(error_of([&] { client.run_task(task, in, take, {}); }).code(), ErrorCode::kMemory);
   task.set_kind("batch");
   const std::vector<EngineClient::InputFile> missing{{"x", (folder / "missing").string()}};
-  EXPECT_EQ(error_of([&] { client.run_task(task, missing, take, {}); }).code(), ErrorCode::kIo);
+  EXPECT_EQ(error_of([&] { client.run_task(task, missing, take, {}); }).code(), ErrorCode::kNotFound);
 }
 
 TEST_F(Client, AServersEndIsTheEnginesEnd) {
