@@ -118,8 +118,9 @@ void add_serve(console::Program& program) {
                       "A folder whose volumes are found by their checksums, wherever the project is");
   command->add_option("--memory", options->memory,
                       "The most that the ranks of a machine hold, in MiB or as 4GiB (default: what is free)");
-  command->add_option("--connection", options->connection,
-                      "The file to write for --engine @FILE (default: a place where status and stop look)");
+  command->add_option(
+      "--connection", options->connection,
+      "The file to write, which clients are given as @FILE (default: a place where status and stop look)");
 }
 
 }  // namespace footwall::commands
