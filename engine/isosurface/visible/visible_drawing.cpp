@@ -11,6 +11,7 @@
 #include "engine/isosurface/visible/detail/wave_surfaces.h"
 #include "engine/voxelize/simd.h"
 #include "storage/base/error.h"
+#include "storage/base/stopwatch.h"
 
 namespace footwall::isosurface {
 namespace {
@@ -27,19 +28,6 @@ constexpr int kLookingAhead = 2;
 constexpr std::int64_t kMuch = 4;  // a quarter
 // By how much more than the mean a rank may have to do, before bricks move.
 constexpr double kUneven = 0.01;
-
-// Adds the time of its own life.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds), start_(omp_get_wtime()) {}
-  ~Stopwatch() { seconds_ += omp_get_wtime() - start_; }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& seconds_;
-  double start_;
-};
 
 // Of what the state remembers.
 struct Remembered {
