@@ -311,7 +311,7 @@ void VisibleDrawing::State::draw_wave(Ranks& ranks, std::span<const VolumePart> 
 VisibleReport VisibleDrawing::draw(Ranks& ranks, std::span<const VolumePart> parts,
                                    const VisibleRequest& request,
                                    const std::function<void(int)>& after_wave) {
-  const double start = omp_get_wtime();
+  double start = omp_get_wtime();
   State& state = *state_;
   const auto count_of_all = [&](std::int64_t mine) {
     std::array<std::int64_t, 1> count{mine};
@@ -329,7 +329,7 @@ VisibleReport VisibleDrawing::draw(Ranks& ranks, std::span<const VolumePart> par
   std::int64_t left = count_of_all(state.pending.pending_parts());
   std::int64_t drawn = 0;
   for (int wave = 1;; ++wave) {
-    const double wave_start = omp_get_wtime();
+    double wave_start = omp_get_wtime();
     VisiblePass pass;
     pass.seconds.visibility = std::exchange(visibility, 0);
     {
@@ -339,7 +339,15 @@ VisibleReport VisibleDrawing::draw(Ranks& ranks, std::span<const VolumePart> par
     }
     state.share(ranks, parts, request, wave, pass.seconds);
     state.draw_wave(ranks, parts, request, {wave > 1 ? &state.merged : nullptr, scale}, pass);
-    if (after_wave) after_wave(wave);
+    if (after_wave) {
+      double aside = 0;
+      {
+        const Stopwatch time(aside);
+        after_wave(wave);
+      }
+      start += aside;
+      wave_start += aside;
+    }
     const std::int64_t before = std::exchange(left, count_of_all(state.pending.pending_parts()));
     const std::int64_t drawn_now = before - left;
     drawn += drawn_now;

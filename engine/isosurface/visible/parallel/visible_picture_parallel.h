@@ -23,10 +23,13 @@ class VisiblePicture {
   // The volume has changed.
   void forget() { drawing_.forget(); }
   VisibleDrawing& drawing() { return drawing_; }
+  // What pictures after the waves of the last draw() took on this rank.
+  double aside_seconds() const { return aside_seconds_; }
 
  private:
   VisibleDrawing drawing_;
   render::Composer composer_;
+  double aside_seconds_ = 0;
 };
 
 }  // namespace footwall::isosurface
