@@ -36,7 +36,7 @@ class VisibleSurface {
 
   // Collective. The request's volume_size and bricks are set here. Pictures after passes take no time of
   // the budget. Throws on all ranks alike what reading volumes throws, kUsage for a picture that cannot be,
-  // kUnsupported for a volume of too many bricks, kMemory, kCancelled.
+  // kUnsupported for a volume of too many bricks, kMemory, kCancelled (looked for in every pass).
   DrawnVisible draw(comm::Communicator& world, isosurface::VisibleRequest request,
                     const render::GroupOptions& groups, const JobContext& context,
                     const AfterPass& after_pass);

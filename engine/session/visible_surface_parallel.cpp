@@ -66,7 +66,7 @@ void VisibleSurface::draw_depth(comm::Communicator& world, const VisibleRequest&
   isosurface::VisiblePicture::AfterWave tell;
   if (after_pass) tell = [&](int, const render::SurfaceLayer& layer) { after_pass(layer); };
   picture_.forget();
-  drawn.layer = picture_.draw(world, pillars_->parts(), request, drawn.report, drawn.composed, tell);
+  drawn.layer = picture_.draw(world, pillars_->parts(), request, drawn.report, drawn.composed, tell, context);
   const render::ComposeReport::Seconds& composed = drawn.composed.seconds;
   drawn.extract_seconds =
       omp_get_wtime() - began - picture_.aside_seconds() - composed.shade - composed.merge - composed.gather;

@@ -30,6 +30,18 @@ class Cancel(HeldRuns):
                 with self.subTest(command=command, ranks=ranks):
                     self.check(ranks, *command)
 
+    def test_what_can_be_seen_ends_between_its_passes(self):
+        project = self.synthetic(size="128x128x128")
+        (self.folder / "passes").mkdir()
+        seen = ("--visible", "--camera", "30,20,1", "--size", "800x800", "--pass-images", "passes", "--mode")
+        isosurface = ("isosurface", project, "--value", "0.2", "--out", "s.vtp")
+        render = ("render", project, "--isosurface", "amplitude=0.2", "--out", "p.png")
+        for ranks, command, mode in ((1, isosurface, "depth"), (3, isosurface, "depth"), (2, isosurface, "paper"),
+                                     (1, render, "depth"), (3, render, "depth")):
+            with self.subTest(ranks=ranks, command=command, mode=mode):
+                self.check(ranks, *command, *seen, mode, once=lambda: any((self.folder / "tmp").glob("*/pass-1")))
+                self.assertEqual(os.listdir(self.folder / "passes"), [])
+
 
 if __name__ == "__main__":
     unittest.main()

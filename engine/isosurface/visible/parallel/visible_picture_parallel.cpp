@@ -6,8 +6,9 @@ namespace footwall::isosurface {
 
 render::SurfaceLayer VisiblePicture::draw(comm::Communicator& world, std::span<const VolumePart> parts,
                                           const VisibleRequest& request, VisibleReport& report,
-                                          render::ComposeReport& composed, const AfterWave& after_wave) {
-  WorldRanks ranks(world);
+                                          render::ComposeReport& composed, const AfterWave& after_wave,
+                                          const JobContext& job) {
+  WorldRanks ranks(world, job);
   aside_seconds_ = 0;
   const render::ComposeOptions options{request.width, request.height, request.threads, {}};
   std::function<void(int)> tell;
