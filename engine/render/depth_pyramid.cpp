@@ -229,16 +229,6 @@ bool DepthPyramid::hides(const ScreenBox& box) const {
   return HWY_DYNAMIC_DISPATCH(all_at_most)(pixels_.data(), part, box.nearest);
 }
 
-int DepthPyramid::count_before(const ScreenBox& box) const {
-  int count = 0;
-  for (int y = std::max(box.y0, window_.y0); y <= std::min(box.y1, window_.y1); ++y) {
-    const std::span<const CoarseDepth> pixels = row(y);
-    for (int x = std::max(box.x0, window_.x0); x <= std::min(box.x1, window_.x1); ++x)
-      count += pixels[static_cast<std::size_t>(x - window_.x0)] > box.nearest ? 1 : 0;
-  }
-  return count;
-}
-
 void DepthPyramid::mark_open(const ScreenBox& box, std::span<std::uint64_t> bits) const {
   const int x0 = std::max(box.x0, window_.x0) - window_.x0;
   const int x1 = std::min(box.x1, window_.x1) - window_.x0;

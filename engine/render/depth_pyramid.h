@@ -84,8 +84,13 @@ class DepthPyramid {
 
   // Whether all of the box lies behind what is seen at its pixels.
   bool hides(const ScreenBox& box) const;
-  // How many pixels of the box show nothing before it.
-  int count_before(const ScreenBox& box) const;
+  // The greatest of a block of 2^level x 2^level pixels, one of which is (x, y), a pixel of the window. Of
+  // levels that there are not: the last one's.
+  CoarseDepth farthest_around(int x, int y, std::size_t level) const {
+    const std::size_t n = level < levels_.size() ? level : levels_.size() - 1;
+    return pixels_[levels_[n].first + static_cast<std::size_t>((y - window_.y0) >> n) * levels_[n].step +
+                   static_cast<std::size_t>((x - window_.x0) >> n)];
+  }
   // Sets a bit for each open pixel of the box: of the word row * words_a_row() + x / 64 from the window's
   // corner on.
   void mark_open(const ScreenBox& box, std::span<std::uint64_t> bits) const;

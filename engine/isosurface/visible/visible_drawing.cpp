@@ -99,8 +99,8 @@ struct VisibleDrawing::State {
   void prepare(std::span<const VolumePart> parts, const VisibleRequest& request);
   render::DepthScale place(Ranks& ranks, const VisibleRequest& request);
   void choose(Ranks& ranks, const VisibleRequest& request, int wave, bool looks_ahead);
-  void share(Ranks& ranks, std::span<const VolumePart> parts, const VisibleRequest& request, int wave,
-             VisiblePass::Seconds& seconds);
+  void share(Ranks& ranks, std::span<const VolumePart> parts, const VisibleRequest& request,
+             const EarlierWaves& earlier, VisiblePass::Seconds& seconds);
   std::int64_t extract_chosen(std::span<const VolumePart> parts, const VisibleRequest& request,
                               const EarlierWaves& earlier);
   void draw_wave(Ranks& ranks, std::span<const VolumePart> parts, const VisibleRequest& request,
@@ -200,14 +200,18 @@ void VisibleDrawing::State::choose(Ranks& ranks, const VisibleRequest& request, 
 
 // Bricks of ranks that have more to do than the mean go to those that have less.
 void VisibleDrawing::State::share(Ranks& ranks, std::span<const VolumePart> parts,
-                                  const VisibleRequest& request, int wave, VisiblePass::Seconds& seconds) {
+                                  const VisibleRequest& request, const EarlierWaves& earlier,
+                                  VisiblePass::Seconds& seconds) {
   taken.clear();
   if (ranks.size() == 1) return;
   std::vector<detail::Move> moves;
   {
     const Stopwatch time(seconds.partition);
     std::array<std::int64_t, 1> work{0};
-    ranks.together([&] { pending.weigh_chosen(wave > 1 ? &merged : nullptr, request.threads); });
+    ranks.together([&] {
+      const detail::ExpectedTriangles expected(request, earlier);
+      pending.weigh_chosen(parts, earlier.depths != nullptr ? &expected : nullptr, request.threads);
+    });
     for (const PendingBrick& brick : pending.bricks()) work[0] += brick.work;
     moves = detail::moves_for(ranks.all(work), kUneven);
   }
@@ -337,8 +341,9 @@ VisibleReport VisibleDrawing::draw(Ranks& ranks, std::span<const VolumePart> par
       const bool looks_ahead = wave <= kLookingAhead || (wave == kLookingAhead + 1 && left * kMuch > drawn);
       state.choose(ranks, request, wave, looks_ahead);
     }
-    state.share(ranks, parts, request, wave, pass.seconds);
-    state.draw_wave(ranks, parts, request, {wave > 1 ? &state.merged : nullptr, scale}, pass);
+    const EarlierWaves earlier{wave > 1 ? &state.merged : nullptr, scale};
+    state.share(ranks, parts, request, earlier, pass.seconds);
+    state.draw_wave(ranks, parts, request, earlier, pass);
     if (after_wave) {
       double aside = 0;
       {

@@ -126,8 +126,7 @@ TEST(VisiblePicture, WorkIsSharedEvenly) {
   picture.draw(world, pillars.parts(), scene.request, report, composed);
   for (const VisiblePass& pass : report.passes) {
     if (world.size() > 4 || pass.triangles * 20 < report.triangles) continue;
-    // Of the later waves little is known beforehand.
-    EXPECT_LT(pass.load_difference, pass.triangles * 5 > report.triangles ? 0.05 : 0.25) << pass.triangles;
+    EXPECT_LT(pass.load_difference, 0.05) << pass.triangles;
   }
 }
 

@@ -54,17 +54,14 @@ TEST(DepthPyramid, HidesOnlyWhatLiesBehindEveryPixel) {
         asked.box.nearest = scale.of_box(asked.depth);
         bool is_hidden = true;
         bool is_far = true;  // by more than the steps' size
-        int before = 0;
         for (int y = std::max<int>(0, asked.box.y0); y <= std::min<int>(height - 1, asked.box.y1); ++y) {
           for (int x = std::max<int>(0, asked.box.x0); x <= std::min<int>(width - 1, asked.box.x1); ++x) {
             const float depth = depth_of(picture.at(x, y));
             is_hidden = is_hidden && picture.at(x, y) != kBackground && depth < asked.depth;
             is_far = is_far && picture.at(x, y) != kBackground &&
                      depth + 4 * DepthScale::kSlack + range / 2e4 < asked.depth;
-            before += pyramid.row(y)[static_cast<std::size_t>(x)] > asked.box.nearest ? 1 : 0;
           }
         }
-        EXPECT_EQ(pyramid.count_before(asked.box), before);
         const bool said = pyramid.hides(asked.box);
         if (said) {
           EXPECT_TRUE(is_hidden);
@@ -99,6 +96,35 @@ TEST(DepthPyramid, LeastOfPyramidsIsThatOfTheirPictures) {
   other.assign(pictures[0], scale);
   for (int y = window.y0; y <= window.y1; ++y)
     EXPECT_TRUE(std::equal(one.row(y).begin(), one.row(y).end(), other.row(y).begin())) << y;
+}
+
+TEST(DepthPyramid, TellsTheFarthestOfABlock) {
+  std::mt19937 random(4);
+  const ScreenBox window{3, 5, 71, 42, 0, 0};
+  DepthPyramid pyramid(window);
+  for (int y = window.y0; y <= window.y1; ++y) {
+    for (int x = window.x0; x <= window.x1; ++x)
+      pyramid.cover({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y), static_cast<std::int16_t>(x),
+                     static_cast<std::int16_t>(y), 0, 0},
+                    static_cast<CoarseDepth>(random() % 60000));
+  }
+  pyramid.build();
+  for (const std::size_t level : {0U, 1U, 2U}) {
+    const int size = 1 << level;
+    for (int y = window.y0; y <= window.y1; ++y) {
+      for (int x = window.x0; x <= window.x1; ++x) {
+        const int left = window.x0 + (x - window.x0) / size * size;
+        const int top = window.y0 + (y - window.y0) / size * size;
+        CoarseDepth farthest = 0;
+        for (int row = top; row < top + size && row <= window.y1; ++row) {
+          for (int column = left; column < left + size && column <= window.x1; ++column)
+            farthest = std::max(farthest, pyramid.row(row)[static_cast<std::size_t>(column - window.x0)]);
+        }
+        ASSERT_EQ(pyramid.farthest_around(x, y, level), farthest);
+      }
+    }
+  }
+  EXPECT_EQ(pyramid.farthest_around(3, 5, 40), pyramid.farthest_around(3, 5, 3));  // 9 x 5 numbers
 }
 
 TEST(DepthPyramid, MarksOpenPixelsOnce) {

@@ -149,16 +149,16 @@ void PendingBricks::choose(std::span<const BrickParts> seen) {
   for (PendingBrick& brick : bricks_) brick.chosen = brick.pending & seen[brick.word];
 }
 
-void PendingBricks::weigh_chosen(const render::DepthPyramid* depths, int threads) {
+void PendingBricks::weigh_chosen(std::span<const VolumePart> parts, const ExpectedTriangles* expected,
+                                 int threads) {
   // Of a part: it has about four cells with two triangles each.
-  constexpr std::int64_t kMost = 8;
+  constexpr std::int64_t kMost = 8 * ExpectedTriangles::kTriangle;
   for_each_brick(bricks_, threads, [&](PendingBrick& brick) {
-    brick.work = kMost * std::popcount(brick.chosen);
-    if (depths == nullptr || brick.chosen == 0) return;
-    brick.work = 0;
-    for_each_box(brick, boxes_, brick.chosen, [&](BrickParts, const render::ScreenBox& box) {
-      brick.work += std::min<std::int64_t>(kMost, depths->count_before(box));
-    });
+    if (expected == nullptr || brick.chosen == 0) {
+      brick.work = kMost * std::popcount(brick.chosen);
+    } else {
+      brick.work = expected->of(parts[brick.part].field, brick.at, brick.chosen);
+    }
   });
 }
 

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/isosurface/visible/detail/expected_triangles.h"
 #include "engine/isosurface/visible/screen_boxes.h"
 #include "engine/isosurface/visible/visible_drawing.h"
 
@@ -42,9 +43,9 @@ class PendingBricks {
   void choose(const render::DepthPyramid* depths, int threads);
   // Chooses what is pending of `seen`, by place in the table.
   void choose(std::span<const BrickParts> seen);
-  // Sets the work of what was chosen: about how many triangles it will show. depths: of earlier waves, or
-  // null.
-  void weigh_chosen(const render::DepthPyramid* depths, int threads);
+  // Sets the work of what was chosen: about how many triangles will be kept of it. parts: as they were
+  // collected of; expected: null in the first wave, of which all is kept.
+  void weigh_chosen(std::span<const VolumePart> parts, const ExpectedTriangles* expected, int threads);
   // What was chosen is done with.
   void finish_chosen();
   // After the last wave: all that was drawn is pending again, and nothing else.
