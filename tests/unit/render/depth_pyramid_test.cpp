@@ -127,22 +127,36 @@ TEST(DepthPyramid, TellsTheFarthestOfABlock) {
   EXPECT_EQ(pyramid.farthest_around(3, 5, 40), pyramid.farthest_around(3, 5, 3));  // 9 x 5 numbers
 }
 
-TEST(DepthPyramid, MarksOpenPixelsOnce) {
-  DepthPyramid pyramid({10, 5, 99, 44, 0, 0});
-  pyramid.cover({20, 10, 29, 19, 0, 0}, 100);
-  pyramid.build();
-  std::vector<std::uint64_t> bits(pyramid.words_a_row() * 40);
-  const auto count = [&] {
-    int all = 0;
-    for (const std::uint64_t word : bits) all += std::popcount(word);
-    return all;
-  };
-  pyramid.mark_open({15, 10, 34, 10, 0, 0}, bits);
-  EXPECT_EQ(count(), 10);
-  pyramid.mark_open({15, 10, 34, 10, 0, 0}, bits);
-  EXPECT_EQ(count(), 10);
-  pyramid.mark_open({-5, -5, 200, 200, 0, 0}, bits);
-  EXPECT_EQ(count(), 90 * 40 - 100);
+TEST(DepthPyramid, MarksWhatIsNoLongerOpen) {
+  for (const int width : {1, 15, 64, 90, 129}) {
+    const auto last = static_cast<std::int16_t>(9 + width);
+    DepthPyramid before({10, 5, last, 44, 0, 0});
+    before.cover({20, 10, 29, 19, 0, 0}, 100);
+    before.build();
+    DepthPyramid now(before.window());
+    now.assign_open(before);
+    std::vector<std::uint64_t> bits(now.words_a_row() * 40);
+    const auto count = [&] {
+      std::fill(bits.begin(), bits.end(), 0);
+      now.mark_closed(before, bits);
+      int all = 0;
+      for (const std::uint64_t word : bits) all += std::popcount(word);
+      return all;
+    };
+    EXPECT_EQ(count(), 0);
+    for (int again = 0; again < 2; ++again) {
+      now.cover({15, 10, 34, 10, 0, 0}, 0);
+      now.build();
+      EXPECT_EQ(count(), std::clamp(last - 14, 0, 20) - std::clamp(last - 19, 0, 10)) << width;
+    }
+    for (std::int16_t x = 10; x <= last; ++x) {
+      const bool is_open = x < 15 || x > 34;
+      EXPECT_EQ(now.is_closed({x, 10, x, 10, 0, 0}), !is_open) << x;
+      EXPECT_FALSE(now.is_closed({x, 9, x, 10, 0, 0}));
+    }
+    now.cover({-5, -5, 200, 200, 0, 0}, 0);
+    EXPECT_EQ(count(), width * 40 - 10 * std::clamp(last - 19, 0, 10));
+  }
 }
 
 TEST(DepthPyramid, DepthsAreRoundedToTheSafeSide) {
