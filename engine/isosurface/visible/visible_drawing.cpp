@@ -144,7 +144,8 @@ void VisibleDrawing::State::prepare(std::span<const VolumePart> parts, const Vis
 // Where the bricks of all ranks lie in the picture, and between which depths.
 PartSearch VisibleDrawing::State::place(Ranks& ranks, std::span<const VolumePart> parts,
                                         const VisibleRequest& request) {
-  PartSearch search{parts, request, {request.camera, request.placement, request.width, request.height}, {}};
+  PartSearch search{
+      parts, request, {request.camera, request.placement, request.width, request.height}, {}, {}};
   // As whole numbers, the greatest of which is wanted.
   constexpr double kFine = 1 << 30;
   std::array<std::int64_t, 6> most{-request.width,           -request.height,         -1, -1,
@@ -165,14 +166,14 @@ PartSearch VisibleDrawing::State::place(Ranks& ranks, std::span<const VolumePart
   });
   ranks.most(most);
   const auto pixel = [](std::int64_t n) { return static_cast<std::int16_t>(n); };
-  const render::ScreenBox rectangle{pixel(-most[0]), pixel(-most[1]), pixel(most[2]), pixel(most[3]), 0, 0};
+  search.rectangle = {pixel(-most[0]), pixel(-most[1]), pixel(most[2]), pixel(most[3]), 0, 0};
   search.scale = render::DepthScale::between(static_cast<double>(-most[4]) / kFine,
                                              static_cast<double>(most[5]) / kFine);
   ranks.together([&] {
     pending.order(search);
-    if (merged.window() != rectangle) {
-      merged = render::DepthPyramid(rectangle);
-      ahead = render::DepthPyramid(rectangle);
+    if (merged.window() != search.rectangle) {
+      merged = render::DepthPyramid(search.rectangle);
+      ahead = render::DepthPyramid(search.rectangle);
     }
   });
   return search;

@@ -13,9 +13,11 @@ namespace footwall::isosurface::detail {
 namespace {
 
 constexpr std::size_t kBricksAtOnce = 64;
-// Walls are looked at after so many groups of bricks, of so many at the least.
-constexpr std::size_t kGroups = 4;
+// Walls are looked at after so many groups of bricks, of so many at the least,
+constexpr std::size_t kMostGroups = 4;
 constexpr std::size_t kLeastGroup = 256;
+// where bricks lie so many deep on the screen. Elsewhere few are hidden as a whole, and looking costs more.
+constexpr double kDeep = 10;
 
 survey::Box cells_of_brick(const survey::Index& brick, const survey::Index& volume_size) {
   survey::Box cells;
@@ -24,6 +26,10 @@ survey::Box cells_of_brick(const survey::Index& brick, const survey::Index& volu
     cells.hi[axis] = std::min(8 * brick[axis] + 8, volume_size[axis] - 1);
   }
   return cells;
+}
+
+double area_of(const render::ScreenBox& box) {
+  return (box.x1 - box.x0 + 1.0) * (box.y1 - box.y0 + 1.0);
 }
 
 template <class Body>
@@ -87,18 +93,21 @@ void PendingBricks::place(const ScreenBoxes& boxes, const VisibleRequest& reques
 void PendingBricks::order(const PartSearch& search) {
   // Boxes' depths are less than kOpenPixel: each has a place to count at, and one is left for the sum.
   nearer_.assign(std::size_t{render::kOpenPixel} + 1, 0);
+  double area = 0;
   for (PendingBrick& brick : bricks_) {
     if (brick.loose.empty()) continue;
     brick.box = search.boxes.scaled(brick.loose, search.scale);
     ++nearer_[brick.box.nearest];
+    area += area_of(brick.box);
   }
   std::exclusive_scan(nearer_.begin(), nearer_.end(), nearer_.begin(), std::size_t{0});
   const std::size_t count = nearer_.back();
+  groups_ = area > kDeep * area_of(search.rectangle) ? kMostGroups : 1;
   // Those of a group stay in the order of memory.
   const auto group_of = [&](const PendingBrick& brick) {
-    return nearer_[brick.box.nearest] * kGroups / count;
+    return nearer_[brick.box.nearest] * groups_ / count;
   };
-  std::array<std::size_t, kGroups + 1> places{};
+  std::array<std::size_t, kMostGroups + 1> places{};
   for (const PendingBrick& brick : bricks_) {
     if (!brick.loose.empty()) ++places[group_of(brick) + 1];
   }
@@ -197,11 +206,11 @@ void PendingBricks::cover(render::DepthPyramid& depths, const render::DepthPyram
                           const PartSearch& search) {
   cover(near_, depths);
   if (far_.empty()) return;
-  depths.build();
+  if (groups_ > 1) depths.build();
   // A far brick behind the walls that stand already cannot change them: its own are behind it.
   visit_far(
-      std::max(kLeastGroup, bricks_.size() / kGroups), search,
-      [&](const render::ScreenBox& box) { return depths.hides(box); },
+      std::max(kLeastGroup, (bricks_.size() + groups_ - 1) / groups_), search,
+      [&](const render::ScreenBox& box) { return groups_ > 1 && depths.hides(box); },
       [&](bool goes_on) {
         if (earlier != nullptr) give_up_hidden(found_, *earlier, search.request.threads);
         cover(found_, depths);

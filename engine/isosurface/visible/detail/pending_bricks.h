@@ -32,6 +32,7 @@ struct PartSearch {
   std::span<const VolumePart> parts;
   const VisibleRequest& request;
   ScreenBoxes boxes;
+  render::ScreenBox rectangle;  // holds all bricks of all ranks
   render::DepthScale scale;
 };
 
@@ -89,6 +90,7 @@ class PendingBricks {
   std::vector<render::ScreenBox> boxes_;  // those of parts, of bricks that are not far
   std::size_t used_boxes_ = 0;
   std::vector<std::size_t> nearer_;  // by depth: how many bricks are before it
+  std::size_t groups_ = 1;           // in which walls are looked at
   std::vector<PendingBrick*> far_;   // from the nearest on, about
   std::vector<PendingBrick*> near_;  // all others that can be met on the screen
   std::vector<PendingBrick*> found_;
