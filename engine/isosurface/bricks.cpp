@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/isosurface/case_tables.h"
 #include "engine/isosurface/detail/march.h"
 #include "engine/isosurface/detail/threads.h"
 #include "engine/voxelize/simd.h"
@@ -18,9 +19,8 @@ namespace {
 using namespace detail;
 
 constexpr std::uint64_t kMostVertices = std::numeric_limits<std::uint32_t>::max();
-// One on each edge and a centre, and then up to twelve triangles around it.
+// One on each edge and a centre.
 constexpr std::uint64_t kMostVerticesOfCell = 13;
-constexpr std::uint64_t kMostTrianglesOfCell = 12;
 
 [[noreturn]] void refuse_vertices() {
   throw Error(ErrorCode::kUnsupported, "the isosurface would have more than 2^32 - 1 vertices",

@@ -16,6 +16,8 @@
 namespace footwall::isosurface {
 
 inline constexpr int kCentre = 12;
+// Around the centre, one for each side of a loop through all edges.
+inline constexpr std::uint64_t kMostTrianglesOfCell = 12;
 
 // How an undecided cell is decided: bit f: on the ambiguous face f the corners at or above the isovalue are
 // joined; bit 6: inside the cell a tunnel joins corners at or above the isovalue that the faces keep apart;

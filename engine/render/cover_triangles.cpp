@@ -1,6 +1,5 @@
-// Triangles into a coverage mask. Eight pixels of a row at once; coverage is decided on the same integers as
-// in rasterizer.cpp. Where nothing is left to be
-// covered, it is not decided at all.
+// Triangles into a coverage mask, eight pixels of a row at once. Coverage is decided by the edge functions
+// that rasterizer.cpp draws with; where nothing is left to be covered, it is not decided at all.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/render/cover_triangles.cpp"
 #include <hwy/foreach_target.h>
@@ -12,6 +11,7 @@
 
 #include "engine/render/clip.h"
 #include "engine/render/coverage_mask.h"
+#include "engine/render/edge_function.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace footwall::render::HWY_NAMESPACE {
@@ -20,36 +20,9 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int kTile = CoverageMask::kTile;
-constexpr std::int32_t kHalf = kSubPixels / 2;
 // Triangles up to so many pixels wide and high take 32-bit edge functions, also in the tiles' other pixels:
 // |E| <= 2 * (71 * 256)^2 < 2^30.
 constexpr std::int32_t kSmall = 64 * kSubPixels;
-
-// The first and last pixel whose centre lies in a closed interval of sub-pixels.
-constexpr std::int32_t first_pixel(std::int32_t at) {
-  return (at + kHalf - 1) >> kSubPixelBits;
-}
-constexpr std::int32_t last_pixel(std::int32_t at) {
-  return (at - kHalf) >> kSubPixelBits;
-}
-
-// An edge of a triangle whose corners are clockwise as seen. Inside is >= 0: the bias takes the zero away
-// from edges that are neither left nor top ones.
-template <class Int>
-struct Edge {
-  Int at;     // at the centre of a first pixel
-  Int right;  // what a pixel further changes
-  Int down;
-
-  Edge(const ScreenVertex& a, const ScreenVertex& b, std::int32_t x, std::int32_t y) {
-    const Int dx = Int{b.x} - a.x;
-    const Int dy = Int{b.y} - a.y;
-    const Int bias = dy < 0 || (dy == 0 && dx > 0) ? 0 : -1;
-    at = dx * (Int{y} * kSubPixels + kHalf - a.y) - dy * (Int{x} * kSubPixels + kHalf - a.x) + bias;
-    right = -dy * kSubPixels;
-    down = dx * kSubPixels;
-  }
-};
 
 struct Pixels {
   std::int32_t x0;
@@ -59,8 +32,8 @@ struct Pixels {
 };
 
 // The bits of rows y0 to y1 of a tile; the edges begin at its first pixel in row y0.
-HWY_INLINE std::uint64_t tile_bits(const Edge<std::int32_t>& ea, const Edge<std::int32_t>& eb,
-                                   const Edge<std::int32_t>& ec, std::int32_t y0, std::int32_t y1) {
+HWY_INLINE std::uint64_t tile_bits(const EdgeFunction<std::int32_t>& ea, const EdgeFunction<std::int32_t>& eb,
+                                   const EdgeFunction<std::int32_t>& ec, std::int32_t y0, std::int32_t y1) {
   const hn::CappedTag<std::int32_t, kTile> d;
   const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
   const auto none = hn::Set(d, -1);
@@ -94,41 +67,26 @@ void cover_small(const ScreenVertex& a, const ScreenVertex& b, const ScreenVerte
       const PixelRect part{std::max(box.x0, column * kTile), y0,
                            std::min(box.x1, column * kTile + kTile - 1) + 1, y1 + 1};
       if ((CoverageMask::bits_in_tile(part) & ~into.tile_at(column, row)) == 0) continue;
-      const Edge<std::int32_t> ea(b, c, column * kTile, y0);
-      const Edge<std::int32_t> eb(c, a, column * kTile, y0);
-      const Edge<std::int32_t> ec(a, b, column * kTile, y0);
+      const EdgeFunction<std::int32_t> ea(b, c, column * kTile, y0);
+      const EdgeFunction<std::int32_t> eb(c, a, column * kTile, y0);
+      const EdgeFunction<std::int32_t> ec(a, b, column * kTile, y0);
       into.add(column, row, tile_bits(ea, eb, ec, y0, y1));
     }
   }
 }
 
-constexpr std::int64_t floor_divided(std::int64_t a, std::int64_t positive) {
-  return a >= 0 ? a / positive : -((-a + positive - 1) / positive);
-}
-
-// Narrows [x0, x1] to the pixels of this row inside the edge.
-void narrow(const Edge<std::int64_t>& edge, std::int64_t at_row, std::int64_t& x0, std::int64_t& x1) {
-  if (edge.right > 0) {
-    x0 = std::max(x0, -floor_divided(at_row, edge.right));
-  } else if (edge.right < 0) {
-    x1 = std::min(x1, floor_divided(at_row, -edge.right));
-  } else if (at_row < 0) {
-    x1 = x0 - 1;
-  }
-}
-
 void cover_large(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, const Pixels& box,
                  CoverageMask& into) {
-  const Edge<std::int64_t> ea(b, c, 0, box.y0);
-  const Edge<std::int64_t> eb(c, a, 0, box.y0);
-  const Edge<std::int64_t> ec(a, b, 0, box.y0);
+  const EdgeFunction<std::int64_t> ea(b, c, 0, box.y0);
+  const EdgeFunction<std::int64_t> eb(c, a, 0, box.y0);
+  const EdgeFunction<std::int64_t> ec(a, b, 0, box.y0);
   for (std::int32_t y = box.y0; y <= box.y1; ++y) {
     const std::int64_t down = y - box.y0;
     std::int64_t from = box.x0;
     std::int64_t to = box.x1;
-    narrow(ea, ea.at + ea.down * down, from, to);
-    narrow(eb, eb.at + eb.down * down, from, to);
-    narrow(ec, ec.at + ec.down * down, from, to);
+    ea.narrow(down, from, to);
+    eb.narrow(down, from, to);
+    ec.narrow(down, from, to);
     if (from <= to) into.fill({static_cast<int>(from), y, static_cast<int>(to) + 1, y + 1});
   }
 }
@@ -141,12 +99,11 @@ void cover_triangle(const ScreenVertex& a, const ScreenVertex& b, const ScreenVe
                    std::min(last_pixel(bottom), into.height() - 1)};
   if (box.x0 > box.x1 || box.y0 > box.y1) return;
   if (right - left <= kSmall && bottom - top <= kSmall) {
-    const std::int32_t area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    const std::int32_t area = twice_area<std::int32_t>(a, b, c);
     if (area > 0) cover_small(a, b, c, box, into);
     if (area < 0) cover_small(a, c, b, box, into);
   } else {
-    const std::int64_t area = (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) -
-                              (std::int64_t{b.y} - a.y) * (std::int64_t{c.x} - a.x);
+    const std::int64_t area = twice_area<std::int64_t>(a, b, c);
     if (area > 0) cover_large(a, b, c, box, into);
     if (area < 0) cover_large(a, c, b, box, into);
   }
@@ -201,7 +158,7 @@ struct Batch {
   std::size_t count = 0;
 };
 
-// Edge of many triangles, from a first pixel's centre at 0, 0; the corners count from there.
+// EdgeFunction of many triangles, from a first pixel's centre at 0, 0; the corners count from there.
 template <class D, class V>
 struct Edges {
   V at;
@@ -247,7 +204,7 @@ HWY_INLINE void cover_group(D d, const Batch& batch, std::size_t at, CoverageMas
   V x0, y0, w, h;
   hn::LoadInterleaved2(d, batch.first + 2 * at, x0, y0);
   hn::LoadInterleaved2(d, batch.more + 2 * at, w, h);
-  const V half = hn::Set(d, kHalf);
+  const V half = hn::Set(d, kHalfPixel);
   const V px = hn::Add(hn::ShiftLeft<kSubPixelBits>(x0), half);
   const V py = hn::Add(hn::ShiftLeft<kSubPixelBits>(y0), half);
   const auto corner = [&](const ScreenVertex* v, V& x, V& y) HWY_ATTR {
@@ -334,8 +291,8 @@ void cover_mesh(const Mesh& mesh, std::span<const TriangleIndices> triangles, Co
   alignas(16) const std::int32_t most[4] = {into.width() - 1, into.height() - 1, kMost, kMost};
   const auto picture_first = hn::Load(ints, least);
   const auto picture_last = hn::Load(ints, most);
-  const auto up = hn::Set(ints, kHalf - 1);
-  const auto down = hn::Set(ints, kHalf);
+  const auto up = hn::Set(ints, kHalfPixel - 1);
+  const auto down = hn::Set(ints, kHalfPixel);
   Batch batch;
   for (const TriangleIndices& corners : triangles) {
     const auto vertex = [&](std::size_t n) HWY_ATTR {

@@ -60,6 +60,27 @@ void cover_all(CoarseDepth* HWY_RESTRICT pixels, const CoarseRectangle& part, Co
   }
 }
 
+void keep_open(const CoarseDepth* HWY_RESTRICT from, std::size_t count, CoarseDepth* HWY_RESTRICT to) {
+  for (std::size_t x = 0; x < count; ++x) to[x] = from[x] == kOpenPixel ? kOpenPixel : CoarseDepth{0};
+}
+
+// Of one row; bits as mark_closed() wants them.
+void mark_row(const CoarseDepth* HWY_RESTRICT now, const CoarseDepth* HWY_RESTRICT before, std::size_t count,
+              std::uint64_t* HWY_RESTRICT bits) {
+  const Coarse d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto open = hn::Set(d, kOpenPixel);
+  for (std::size_t x = 0; x < count; x += lanes) {
+    // Behind the row's end both are taken for hidden.
+    const auto was = hn::IfThenElseZero(hn::FirstN(d, count - x), hn::LoadU(d, before + x));
+    const auto is_closed = hn::And(hn::Eq(was, open), hn::Ne(hn::LoadU(d, now + x), open));
+    std::uint8_t some[8] = {};
+    hn::StoreMaskBits(d, is_closed, some);
+    const std::uint64_t word = some[0] | std::uint64_t{some[1]} << 8U;
+    bits[x / 64] |= word << (x % 64);
+  }
+}
+
 void round_row(const Visible* HWY_RESTRICT from, std::size_t count, float least, float steps,
                CoarseDepth* HWY_RESTRICT to) {
   std::size_t x = 0;
@@ -119,6 +140,8 @@ namespace {
 
 HWY_EXPORT(all_at_most);
 HWY_EXPORT(cover_all);
+HWY_EXPORT(keep_open);
+HWY_EXPORT(mark_row);
 HWY_EXPORT(round_row);
 HWY_EXPORT(halve_row);
 
@@ -126,6 +149,7 @@ HWY_EXPORT(halve_row);
 constexpr std::size_t kBeyond = 64;
 // Boxes of at most so many numbers each way are looked at as they are; larger ones on a coarser level.
 constexpr int kLookedAt = 16;
+constexpr int kManyRows = 5;
 
 }  // namespace
 
@@ -175,6 +199,11 @@ void DepthPyramid::assign(const DepthPyramid& other) {
   std::copy_n(other.pixels_.begin(), levels_.front().first_beyond, pixels_.begin());
 }
 
+void DepthPyramid::assign_open(const DepthPyramid& other) {
+  require(window_ == other.window_, "pyramids of the same window");
+  HWY_DYNAMIC_DISPATCH(keep_open)(other.pixels_.data(), levels_.front().first_beyond, pixels_.data());
+}
+
 void DepthPyramid::cover(const ScreenBox& box, CoarseDepth depth) {
   const int x0 = std::max(box.x0, window_.x0) - window_.x0;
   const int x1 = std::min(box.x1, window_.x1) - window_.x0;
@@ -222,35 +251,34 @@ bool DepthPyramid::hides(const ScreenBox& box) const {
     y1 /= 2;
     ++n;
   }
-  const Level& level = levels_[n];
-  const CoarseRectangle part{
-      level.first + static_cast<std::size_t>(y0) * level.step + static_cast<std::size_t>(x0), level.step,
-      static_cast<std::size_t>(x1 - x0 + 1), static_cast<std::size_t>(y1 - y0 + 1)};
-  return HWY_DYNAMIC_DISPATCH(all_at_most)(pixels_.data(), part, box.nearest);
+  const auto is_behind = [&, at_most = HWY_DYNAMIC_DISPATCH(all_at_most)](std::size_t number, int shift) {
+    const Level& level = levels_[number];
+    const auto left = static_cast<std::size_t>(x0 >> shift);
+    const auto top = static_cast<std::size_t>(y0 >> shift);
+    return at_most(
+        pixels_.data(),
+        {level.first + top * level.step + left, level.step, static_cast<std::size_t>(x1 >> shift) - left + 1,
+         static_cast<std::size_t>(y1 >> shift) - top + 1},
+        box.nearest);
+  };
+  // What is hidden mostly is so on a coarser level, too, where there is less to look at.
+  if (y1 - y0 >= kManyRows && n + 2 < levels_.size() && is_behind(n + 2, 2)) return true;
+  return is_behind(n, 0);
 }
 
-int DepthPyramid::count_before(const ScreenBox& box) const {
-  int count = 0;
-  for (int y = std::max(box.y0, window_.y0); y <= std::min(box.y1, window_.y1); ++y) {
-    const std::span<const CoarseDepth> pixels = row(y);
-    for (int x = std::max(box.x0, window_.x0); x <= std::min(box.x1, window_.x1); ++x)
-      count += pixels[static_cast<std::size_t>(x - window_.x0)] > box.nearest ? 1 : 0;
-  }
-  return count;
+bool DepthPyramid::is_closed(const ScreenBox& box) const {
+  ScreenBox last = box;
+  last.nearest = kOpenPixel - 1;
+  return hides(last);
 }
 
-void DepthPyramid::mark_open(const ScreenBox& box, std::span<std::uint64_t> bits) const {
-  const int x0 = std::max(box.x0, window_.x0) - window_.x0;
-  const int x1 = std::min(box.x1, window_.x1) - window_.x0;
-  const int y0 = std::max(box.y0, window_.y0) - window_.y0;
-  const int y1 = std::min(box.y1, window_.y1) - window_.y0;
-  for (int y = y0; y <= y1; ++y) {
-    const CoarseDepth* const from = pixels_.data() + static_cast<std::size_t>(y) * row_step();
-    const std::size_t to = static_cast<std::size_t>(y) * words_a_row();
-    for (int x = x0; x <= x1; ++x) {
-      const auto at = static_cast<std::size_t>(x);
-      bits[to + at / 64] |= std::uint64_t{from[at] == kOpenPixel ? 1U : 0U} << (at % 64);
-    }
+void DepthPyramid::mark_closed(const DepthPyramid& other, std::span<std::uint64_t> bits) const {
+  require(window_ == other.window_, "pyramids of the same window");
+  const auto mark = HWY_DYNAMIC_DISPATCH(mark_row);
+  for (int y = 0; y < height_; ++y) {
+    const std::size_t first = static_cast<std::size_t>(y) * row_step();
+    mark(pixels_.data() + first, other.pixels_.data() + first, static_cast<std::size_t>(width_),
+         bits.data() + static_cast<std::size_t>(y) * words_a_row());
   }
 }
 

@@ -78,17 +78,25 @@ class DepthPyramid {
   void open();
   void assign(const VisibilityBuffer& picture, const DepthScale& scale);  // the picture holds the window
   void assign(const DepthPyramid& other);                                 // of the same window
+  void assign_open(const DepthPyramid& other);  // open where the other is, hidden everywhere else
   // Keeps the nearer of each pixel of the box.
   void cover(const ScreenBox& box, CoarseDepth depth);
   void build();
 
   // Whether all of the box lies behind what is seen at its pixels.
   bool hides(const ScreenBox& box) const;
-  // How many pixels of the box show nothing before it.
-  int count_before(const ScreenBox& box) const;
-  // Sets a bit for each open pixel of the box: of the word row * words_a_row() + x / 64 from the window's
-  // corner on.
-  void mark_open(const ScreenBox& box, std::span<std::uint64_t> bits) const;
+  // The greatest of a block of 2^level x 2^level pixels, one of which is (x, y), a pixel of the window. Of
+  // levels that there are not: the last one's.
+  CoarseDepth farthest_around(int x, int y, std::size_t level) const {
+    const std::size_t n = level < levels_.size() ? level : levels_.size() - 1;
+    return pixels_[levels_[n].first + static_cast<std::size_t>((y - window_.y0) >> n) * levels_[n].step +
+                   static_cast<std::size_t>((x - window_.x0) >> n)];
+  }
+  // Whether no pixel of the box is open.
+  bool is_closed(const ScreenBox& box) const;
+  // Sets a bit for each pixel that is open in `other`, of the same window, but not here: of the word
+  // row * words_a_row() + x / 64 from the window's corner on.
+  void mark_closed(const DepthPyramid& other, std::span<std::uint64_t> bits) const;
   std::size_t words_a_row() const { return static_cast<std::size_t>(width_ + 63) / 64; }
 
  private:

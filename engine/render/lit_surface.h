@@ -8,6 +8,7 @@
 #pragma once
 #include <array>
 #include <span>
+#include <vector>
 
 #include "engine/render/camera.h"
 #include "engine/render/colour.h"
@@ -44,6 +45,18 @@ struct LitSurface {
   // The primitives' numbers; ascending by triangle and by number, the first run from triangle 0 on. No number
   // is used twice in a picture.
   std::span<const IdRun> runs;
+};
+
+// The same with arrays of its own.
+struct OwnedSurface {
+  Rgba colour = 0;
+  Placement placement;
+  std::vector<Vec3f> positions;
+  std::vector<Vec3f> normals;
+  std::vector<TriangleIndices> triangles;
+  std::vector<IdRun> runs;
+
+  LitSurface view() const { return {colour, placement, positions, normals, triangles, runs}; }
 };
 
 // From normals in a surface's frame to right, up and towards the eye, row major; of any length.

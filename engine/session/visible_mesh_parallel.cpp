@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstring>
 #include <limits>
 #include <numeric>
@@ -97,16 +99,16 @@ void append(const comm::Bytes& bytes, Sent& to) {
 std::vector<std::uint32_t> firsts_of(const std::vector<SentVertex>& vertices) {
   std::vector<std::uint32_t> order(vertices.size());
   std::iota(order.begin(), order.end(), 0U);
-  const auto compared = [&](std::uint32_t a, std::uint32_t b) {
-    return std::memcmp(&vertices[a], &vertices[b], sizeof(SentVertex));
+  const auto bits = [&](std::uint32_t n) {
+    return std::bit_cast<std::array<std::uint32_t, sizeof(SentVertex) / sizeof(std::uint32_t)>>(vertices[n]);
   };
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const int difference = compared(a, b);
+    const auto difference = bits(a) <=> bits(b);
     return difference != 0 ? difference < 0 : a < b;
   });
   std::vector<std::uint32_t> first(vertices.size());
   for (std::size_t n = 0; n < order.size(); ++n) {
-    const bool is_new = n == 0 || compared(order[n - 1], order[n]) != 0;
+    const bool is_new = n == 0 || bits(order[n - 1]) != bits(order[n]);
     first[order[n]] = is_new ? order[n] : first[order[n - 1]];
   }
   return first;

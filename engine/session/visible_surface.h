@@ -37,9 +37,9 @@ class VisibleSurface {
   VisibleSurface(const VisibleSurface&) = delete;
   VisibleSurface& operator=(const VisibleSurface&) = delete;
 
-  // Collective. The request's volume_size and bricks are set here. In mode `paper` pictures after passes take
-  // no time of the budget. Throws on all ranks alike what reading volumes throws, kUsage for a picture that
-  // cannot be, kUnsupported for a volume of too many bricks, kMemory, kCancelled.
+  // Collective. The request's volume_size and bricks are set here. Pictures after passes take no time of
+  // the budget. Throws on all ranks alike what reading volumes throws, kUsage for a picture that cannot be,
+  // kUnsupported for a volume of too many bricks, kMemory, kCancelled (looked for in every pass).
   DrawnVisible draw(comm::Communicator& world, isosurface::VisibleRequest request,
                     const render::GroupOptions& groups, const JobContext& context,
                     const AfterPass& after_pass);

@@ -83,24 +83,19 @@ void VisibleSurface::draw_depth(comm::Communicator& world, const VisibleRequest&
 
   // 2. Waves, drawn and merged.
   const double began = omp_get_wtime();
-  double aside = 0;
   isosurface::VisiblePicture::AfterWave tell;
-  if (after_pass) {
-    tell = [&](int, const render::SurfaceLayer& layer) {
-      const double now = omp_get_wtime();
-      after_pass(layer);
-      aside += omp_get_wtime() - now;
-    };
-  }
+  if (after_pass) tell = [&](int, const render::SurfaceLayer& layer) { after_pass(layer); };
   isosurface::VisiblePicture& picture = picture_of(request.isovalue).drawn;
   try {
-    drawn.layer = picture.draw(world, pillars_->parts(), request, drawn.report, drawn.composed, tell);
+    drawn.layer =
+        picture.draw(world, pillars_->parts(), request, drawn.report, drawn.composed, tell, context);
   } catch (...) {
     picture.forget();  // what it showed is half of a picture
     throw;
   }
   const render::ComposeReport::Seconds& composed = drawn.composed.seconds;
-  drawn.extract_seconds = omp_get_wtime() - began - aside - composed.shade - composed.merge - composed.gather;
+  drawn.extract_seconds =
+      omp_get_wtime() - began - picture.aside_seconds() - composed.shade - composed.merge - composed.gather;
   world.collectively([&] {
     context.check();
     const auto surfaces = picture.drawing().frame().surfaces();

@@ -5,6 +5,7 @@
 
 #include "storage/base/error.h"
 #include "storage/base/text.h"
+#include "storage/formats/missing_options.h"
 #include "storage/formats/nrrd.h"
 #include "storage/survey/units.h"
 
@@ -114,14 +115,10 @@ class Placing {
     if (meaning_.vertical_unit) unit = meaning_.vertical_unit;
     if (!domain) domain = meaning_.domain_otherwise;
     if (!unit) unit = meaning_.unit_otherwise;
-    if (!domain) {
-      throw Error(ErrorCode::kUsage, "--domain is missing: the file cannot tell whether z is time or depth",
-                  "add --domain time or --domain depth");
-    }
-    if (!unit) {
-      throw Error(ErrorCode::kUsage, "--vertical-unit is missing: the file cannot tell the unit of z",
-                  "add --vertical-unit ms, m or ft");
-    }
+    std::vector<MissingOption> missing;
+    if (!domain) missing.push_back(kMissingDomain);
+    if (!unit) missing.push_back(kMissingUnit);
+    refuse_missing(missing);
     if ((*domain == survey::Domain::kTime) != (*unit == survey::VerticalUnit::kMillisecond)) {
       throw Error(
           ErrorCode::kUsage,

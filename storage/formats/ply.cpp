@@ -58,16 +58,10 @@ void write(const std::filesystem::path& path, const TriangleSource& source, cons
         }
         out.write(records.bytes());
       });
-  detail::in_parts<std::array<std::uint32_t, 3>>(source.triangles, source.corners,
-                                                 [&](std::span<const std::array<std::uint32_t, 3>> part) {
-                                                   job.check();
-                                                   records.clear();
-                                                   for (const auto& triangle : part) {
-                                                     records.put(std::uint8_t{3});
-                                                     records.put(triangle);
-                                                   }
-                                                   out.write(records.bytes());
-                                                 });
+  detail::write_triangles(out, source, job, [](detail::Records& to, const auto& corners) {
+    to.put(std::uint8_t{3});
+    to.put(corners);
+  });
   out.commit();
 }
 

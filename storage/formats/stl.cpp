@@ -61,21 +61,16 @@ void write(const std::filesystem::path& path, const TriangleSource& source, cons
   detail::Records records;
   records.put(static_cast<std::uint32_t>(source.triangles));
   out.write(records.bytes());
-  detail::in_parts<std::array<std::uint32_t, 3>>(
-      source.triangles, source.corners, [&](std::span<const std::array<std::uint32_t, 3>> part) {
-        job.check();
-        records.clear();
-        for (const auto& [a, b, c] : part) {
-          require(a < positions.size() && b < positions.size() && c < positions.size(),
-                  "triangles of vertices that are there");
-          records.put(normal_of(positions[a], positions[b], positions[c]));
-          records.put(positions[a]);
-          records.put(positions[b]);
-          records.put(positions[c]);
-          records.put(std::uint16_t{0});
-        }
-        out.write(records.bytes());
-      });
+  detail::write_triangles(out, source, job, [&](detail::Records& to, const auto& corners) {
+    const auto [a, b, c] = corners;
+    require(a < positions.size() && b < positions.size() && c < positions.size(),
+            "triangles of vertices that are there");
+    to.put(normal_of(positions[a], positions[b], positions[c]));
+    to.put(positions[a]);
+    to.put(positions[b]);
+    to.put(positions[c]);
+    to.put(std::uint16_t{0});
+  });
   out.commit();
 }
 

@@ -36,16 +36,9 @@ void put_polygons(detail::OutputFile& out, const TriangleSource& source, const J
   detail::Records records;
   records.put(source.triangles * 3 * sizeof(Number));
   out.write(records.bytes());
-  detail::in_parts<std::array<std::uint32_t, 3>>(source.triangles, source.corners,
-                                                 [&](std::span<const std::array<std::uint32_t, 3>> part) {
-                                                   job.check();
-                                                   records.clear();
-                                                   for (const auto& triangle : part) {
-                                                     for (const std::uint32_t vertex : triangle)
-                                                       records.put(static_cast<Number>(vertex));
-                                                   }
-                                                   out.write(records.bytes());
-                                                 });
+  detail::write_triangles(out, source, job, [](detail::Records& to, const auto& corners) {
+    for (const std::uint32_t vertex : corners) to.put(static_cast<Number>(vertex));
+  });
   records.clear();
   records.put(source.triangles * sizeof(Number));
   out.write(records.bytes());

@@ -7,6 +7,7 @@
 #include "engine/tasks/triangulate.h"
 #include "storage/base/log.h"
 #include "storage/base/text.h"
+#include "storage/formats/missing_options.h"
 
 namespace footwall::commands {
 namespace {
@@ -85,25 +86,13 @@ void VolumeOptions::add_to(CLI::App& command) {
                      "Raw, NRRD: the value that stands for 'no value' (NaN always does)");
 }
 
-survey::Domain VolumeOptions::required_domain() const {
-  if (!domain) {
-    throw Error(ErrorCode::kUsage, "--domain is missing: the file cannot tell whether z is time or depth",
-                "add --domain time or --domain depth");
-  }
-  return survey::domain_from(*domain);
-}
-
-survey::VerticalUnit VolumeOptions::required_unit() const {
-  if (!vertical_unit) {
-    throw Error(ErrorCode::kUsage, "--vertical-unit is missing: the file cannot tell the unit of z",
-                "add --vertical-unit ms, m or ft");
-  }
-  return survey::vertical_unit_from(*vertical_unit);
-}
-
 void VolumeOptions::check_samples() const {
-  const survey::Domain chosen = required_domain();
-  const survey::VerticalUnit unit = required_unit();
+  std::vector<formats::MissingOption> missing;
+  if (!domain) missing.push_back(formats::kMissingDomain);
+  if (!vertical_unit) missing.push_back(formats::kMissingUnit);
+  formats::refuse_missing(missing);
+  const survey::Domain chosen = survey::domain_from(*domain);
+  const survey::VerticalUnit unit = survey::vertical_unit_from(*vertical_unit);
   if ((chosen == survey::Domain::kTime) != (unit == survey::VerticalUnit::kMillisecond)) {
     throw Error(ErrorCode::kUsage,
                 fmt::format("--domain {} does not go with --vertical-unit {}", *domain, *vertical_unit),
@@ -122,18 +111,15 @@ void VolumeOptions::check_interval() const {
 formats::segy::Options VolumeOptions::segy() const {
   check_samples();
   formats::segy::Options options = headers.to_options();
-  options.domain = required_domain();
-  options.vertical_unit = required_unit();
+  options.domain = survey::domain_from(*domain);
+  options.vertical_unit = survey::vertical_unit_from(*vertical_unit);
   options.interval = interval;
   options.crs = crs;
   return options;
 }
 
 tasks::RawOptions VolumeOptions::raw() const {
-  if (dims.empty()) {
-    throw Error(ErrorCode::kUsage, "--dims is missing: a raw file cannot tell its size",
-                "add --dims inlines x crosslines x samples");
-  }
+  if (dims.empty()) formats::refuse_missing({formats::kMissingDims});
   return {dims_from(dims, "--dims"), axes.empty() ? "ijk" : axes, headers.endian && *headers.endian == "big",
           null_value};
 }
@@ -168,13 +154,15 @@ void VolumeOptions::agree_but_for_interval(const survey::Geometry& survey) const
 }
 
 survey::Geometry VolumeOptions::raw_geometry() const {
-  if (!interval) {
-    throw Error(ErrorCode::kUsage, "--interval is missing: a raw file cannot tell its sample interval",
-                "add --interval in the vertical unit, e.g. 4");
-  }
+  std::vector<formats::MissingOption> missing;
+  if (dims.empty()) missing.push_back(formats::kMissingDims);
+  if (!domain) missing.push_back(formats::kMissingDomain);
+  if (!vertical_unit) missing.push_back(formats::kMissingUnit);
+  if (!interval) missing.push_back(formats::kMissingInterval);
+  formats::refuse_missing(missing);
   check_samples();
-  survey::Geometry geometry =
-      tasks::plain_geometry(raw().dims, required_domain(), required_unit(), *interval);
+  survey::Geometry geometry = tasks::plain_geometry(raw().dims, survey::domain_from(*domain),
+                                                    survey::vertical_unit_from(*vertical_unit), *interval);
   geometry.crs = crs;
   return geometry;
 }

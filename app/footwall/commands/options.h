@@ -33,7 +33,7 @@ struct VolumeOptions {
   std::optional<float> null_value;
 
   void add_to(CLI::App& command);
-  // Throws kUsage, naming the option, where the domain or unit is not given.
+  // Each throws kUsage that names every option it needs and was not given.
   formats::segy::Options segy() const;
   tasks::NrrdOptions nrrd() const;
   tasks::RawOptions raw() const;
@@ -45,9 +45,7 @@ struct VolumeOptions {
   void agree_but_for_interval(const survey::Geometry& survey) const;
 
  private:
-  survey::Domain required_domain() const;
-  survey::VerticalUnit required_unit() const;
-  // Throws kUsage where domain, unit and interval cannot belong together.
+  // Throws kUsage where domain or unit are not given, or domain, unit and interval cannot belong together.
   void check_samples() const;
   void check_interval() const;
 };

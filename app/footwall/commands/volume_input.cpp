@@ -40,9 +40,11 @@ VolumeInput volume_input(const std::filesystem::path& file, VolumeKind kind, con
       if (survey) options.agree_with(*survey);
       input.source = tasks::nrrd_source(file, options.nrrd(), survey, scratch, job);
       break;
-    default:
+    default: {
       if (survey) options.agree_with(*survey);
-      input.source = tasks::raw_source(file, options.raw(), survey ? *survey : options.raw_geometry());
+      const survey::Geometry geometry = survey ? *survey : options.raw_geometry();
+      input.source = tasks::raw_source(file, options.raw(), geometry);
+    }
   }
   input.source = shape.apply(std::move(input.source), survey, input.warnings);
   input.report.assumed = input.source.geometry.assumed;

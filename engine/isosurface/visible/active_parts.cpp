@@ -130,8 +130,11 @@ BrickParts active_parts(const Field& field, const survey::Index& brick, float is
 void fetch_brick(const Field& field, const survey::Index& brick) {
   const BrickSamples samples = samples_of(field, brick);
   for (std::int64_t i = 0; i < samples.size[0]; ++i) {
-    for (std::int64_t j = 0; j < samples.size[1]; ++j)
-      __builtin_prefetch(samples.first + i * samples.plane_step + j * samples.row_step);
+    for (std::int64_t j = 0; j < samples.size[1]; ++j) {
+      const float* const row = samples.first + i * samples.plane_step + j * samples.row_step;
+      __builtin_prefetch(row);
+      __builtin_prefetch(row + samples.size[2] - 1);
+    }
   }
 }
 

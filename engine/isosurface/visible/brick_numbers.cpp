@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "engine/isosurface/case_tables.h"
 #include "storage/base/error.h"
 
 namespace footwall::isosurface {
 namespace {
 
-constexpr std::uint64_t kOfRow = 8 * BrickNumbers::kMostOfCell;
-constexpr std::uint64_t kOfPart = 2 * BrickNumbers::kMostOfCell;
+constexpr std::uint64_t kOfRow = 8 * kMostTrianglesOfCell;
+constexpr std::uint64_t kOfPart = 2 * kMostTrianglesOfCell;
 constexpr std::uint64_t kOfBrick = 64 * kOfRow;
 
 }  // namespace

@@ -12,9 +12,6 @@ namespace footwall::isosurface {
 
 class BrickNumbers {
  public:
-  // A cell has at most so many triangles.
-  static constexpr std::uint64_t kMostOfCell = 12;
-
   // Throws Error kUnsupported where the numbers do not fit into 32 bits: from 699,050 crossed bricks on.
   BrickNumbers(const Bricks& bricks, float isovalue);
   BrickNumbers() = default;

@@ -72,8 +72,8 @@ render::ScreenBox ScreenBoxes::scaled(const LooseBox& box, const render::DepthSc
           held(box.y1, height_), scale.of_box(box.nearest), scale.behind(box.farthest)};
 }
 
-BrickParts ScreenBoxes::of_parts(const survey::Box& cells, BrickParts parts, const render::DepthScale& scale,
-                                 render::ScreenBox* into) const {
+BrickParts ScreenBoxes::of_parts(const survey::Box& cells, BrickParts parts, const render::ScreenBox& brick,
+                                 const render::DepthScale& scale, render::ScreenBox* into) const {
   BrickParts kept = 0;
   const auto keep = [&](int bit, const render::ScreenBox& box) {
     *into++ = box;
@@ -83,10 +83,10 @@ BrickParts ScreenBoxes::of_parts(const survey::Box& cells, BrickParts parts, con
   if (detail::find_part_boxes(to_clip_, cells, {width_, height_}, scale, found)) {
     for (BrickParts left = parts; left != 0; left &= left - 1) {
       const int bit = std::countr_zero(left);
-      const int x0 = std::max(0, found.x0[bit]);
-      const int y0 = std::max(0, found.y0[bit]);
-      const int x1 = std::min(width_ - 1, found.x1[bit]);
-      const int y1 = std::min(height_ - 1, found.y1[bit]);
+      const int x0 = std::max<int>(brick.x0, found.x0[bit]);
+      const int y0 = std::max<int>(brick.y0, found.y0[bit]);
+      const int x1 = std::min<int>(brick.x1, found.x1[bit]);
+      const int y1 = std::min<int>(brick.y1, found.y1[bit]);
       if (x0 > x1 || y0 > y1) continue;
       keep(bit, {static_cast<std::int16_t>(x0), static_cast<std::int16_t>(y0), static_cast<std::int16_t>(x1),
                  static_cast<std::int16_t>(y1), static_cast<render::CoarseDepth>(found.nearest[bit]),
@@ -100,7 +100,12 @@ BrickParts ScreenBoxes::of_parts(const survey::Box& cells, BrickParts parts, con
                              cells.lo[2] + kStep * (bit & 3)};
     const LooseBox box =
         of(survey::intersection({from, {from[0] + kStep, from[1] + kStep, from[2] + kStep}}, cells));
-    if (!box.empty()) keep(bit, scaled(box, scale));
+    render::ScreenBox part = scaled(box, scale);
+    part.x0 = std::max(part.x0, brick.x0);
+    part.y0 = std::max(part.y0, brick.y0);
+    part.x1 = std::min(part.x1, brick.x1);
+    part.y1 = std::min(part.y1, brick.y1);
+    if (!part.empty()) keep(bit, part);
   }
   return kept;
 }

@@ -30,9 +30,10 @@ class ScreenBoxes {
   render::ScreenBox scaled(const LooseBox& box, const render::DepthScale& scale) const;
 
   // Writes the boxes of the parts of one brick, ascending by bit, and returns those that are not empty, for
-  // which alone there are boxes. `cells`: of the brick, cut at the volume. into: room for all parts.
-  BrickParts of_parts(const survey::Box& cells, BrickParts parts, const render::DepthScale& scale,
-                      render::ScreenBox* into) const;
+  // which alone there are boxes. `cells`: of the brick, cut at the volume. brick: its own box, beyond which
+  // no pixel of a part's lies. into: room for all parts.
+  BrickParts of_parts(const survey::Box& cells, BrickParts parts, const render::ScreenBox& brick,
+                      const render::DepthScale& scale, render::ScreenBox* into) const;
 
   const render::Matrix4& to_clip() const { return to_clip_; }
 

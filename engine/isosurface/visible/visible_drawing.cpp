@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "engine/isosurface/visible/detail/moved_bricks.h"
@@ -11,12 +12,14 @@
 #include "engine/isosurface/visible/detail/wave_surfaces.h"
 #include "engine/voxelize/simd.h"
 #include "storage/base/error.h"
+#include "storage/base/stopwatch.h"
 
 namespace footwall::isosurface {
 namespace {
 
 using detail::EarlierWaves;
 using detail::MovedBrick;
+using detail::PartSearch;
 using detail::PendingBrick;
 using detail::PendingBricks;
 using detail::WaveSurfaces;
@@ -25,21 +28,10 @@ using detail::WaveSurfaces;
 // (surfaces full of holes), looked at once more before that.
 constexpr int kLookingAhead = 2;
 constexpr std::int64_t kMuch = 4;  // a quarter
+// That are left of a brick of which only the box was looked at.
+constexpr std::int64_t kPartsOfFar = 8;
 // By how much more than the mean a rank may have to do, before bricks move.
 constexpr double kUneven = 0.01;
-
-// Adds the time of its own life.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds), start_(omp_get_wtime()) {}
-  ~Stopwatch() { seconds_ += omp_get_wtime() - start_; }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& seconds_;
-  double start_;
-};
 
 // Of what the state remembers.
 struct Remembered {
@@ -109,17 +101,18 @@ struct VisibleDrawing::State {
   std::vector<MovedBrick> taken;  // from other ranks, in the wave under way
 
   void prepare(std::span<const VolumePart> parts, const VisibleRequest& request);
-  render::DepthScale place(Ranks& ranks, const VisibleRequest& request);
-  void choose(Ranks& ranks, const VisibleRequest& request, int wave, bool looks_ahead);
-  void share(Ranks& ranks, std::span<const VolumePart> parts, const VisibleRequest& request, int wave,
-             VisiblePass::Seconds& seconds);
+  PartSearch place(Ranks& ranks, std::span<const VolumePart> parts, const VisibleRequest& request);
+  void choose(Ranks& ranks, const PartSearch& search, int wave, bool looks_ahead);
+  void share(Ranks& ranks, std::span<const VolumePart> parts, const VisibleRequest& request,
+             const EarlierWaves& earlier, VisiblePass::Seconds& seconds);
   std::int64_t extract_chosen(std::span<const VolumePart> parts, const VisibleRequest& request,
                               const EarlierWaves& earlier);
   void draw_wave(Ranks& ranks, std::span<const VolumePart> parts, const VisibleRequest& request,
                  const EarlierWaves& earlier, VisiblePass& pass);
   void merge_depths(Ranks& ranks, const render::DepthScale& scale);
-  std::int64_t count_open(Ranks& ranks);
-  void remember_seen(const VisibleRequest& request, std::size_t wave);
+  std::int64_t count_open(Ranks& ranks, const PartSearch& search);
+  std::int64_t count_left(Ranks& ranks, const PartSearch& search, std::int64_t enough);
+  void remember_seen(const PartSearch& search, std::size_t wave);
 };
 
 void VisibleDrawing::State::prepare(std::span<const VolumePart> parts, const VisibleRequest& request) {
@@ -149,14 +142,16 @@ void VisibleDrawing::State::prepare(std::span<const VolumePart> parts, const Vis
 }
 
 // Where the bricks of all ranks lie in the picture, and between which depths.
-render::DepthScale VisibleDrawing::State::place(Ranks& ranks, const VisibleRequest& request) {
-  const ScreenBoxes boxes(request.camera, request.placement, request.width, request.height);
+PartSearch VisibleDrawing::State::place(Ranks& ranks, std::span<const VolumePart> parts,
+                                        const VisibleRequest& request) {
+  PartSearch search{
+      parts, request, {request.camera, request.placement, request.width, request.height}, {}, {}};
   // As whole numbers, the greatest of which is wanted.
   constexpr double kFine = 1 << 30;
   std::array<std::int64_t, 6> most{-request.width,           -request.height,         -1, -1,
                                    -(std::int64_t{1} << 31), -(std::int64_t{1} << 31)};
   ranks.together([&] {
-    pending.place(boxes, request);
+    pending.place(search.boxes, request);
     for (const PendingBrick& brick : pending.bricks()) {
       const LooseBox& box = brick.loose;
       if (box.empty()) continue;
@@ -171,28 +166,32 @@ render::DepthScale VisibleDrawing::State::place(Ranks& ranks, const VisibleReque
   });
   ranks.most(most);
   const auto pixel = [](std::int64_t n) { return static_cast<std::int16_t>(n); };
-  const render::ScreenBox rectangle{pixel(-most[0]), pixel(-most[1]), pixel(most[2]), pixel(most[3]), 0, 0};
-  const auto scale = render::DepthScale::between(static_cast<double>(-most[4]) / kFine,
-                                                 static_cast<double>(most[5]) / kFine);
+  search.rectangle = {pixel(-most[0]), pixel(-most[1]), pixel(most[2]), pixel(most[3]), 0, 0};
+  search.scale = render::DepthScale::between(static_cast<double>(-most[4]) / kFine,
+                                             static_cast<double>(most[5]) / kFine);
   ranks.together([&] {
-    pending.place_parts(boxes, scale, request);
-    if (merged.window() != rectangle) {
-      merged = render::DepthPyramid(rectangle);
-      ahead = render::DepthPyramid(rectangle);
+    pending.order(search);
+    if (merged.window() != search.rectangle) {
+      merged = render::DepthPyramid(search.rectangle);
+      ahead = render::DepthPyramid(search.rectangle);
     }
   });
-  return scale;
+  return search;
 }
 
-void VisibleDrawing::State::choose(Ranks& ranks, const VisibleRequest& request, int wave, bool looks_ahead) {
+void VisibleDrawing::State::choose(Ranks& ranks, const PartSearch& search, int wave, bool looks_ahead) {
+  const int threads = search.request.threads;
   if (wave == 1 && !seen.empty()) {
-    ranks.together([&] { pending.choose(seen); });
+    ranks.together([&] { pending.choose(seen, search); });
     std::array<std::int64_t, 1> count{pending.chosen_parts()};
     ranks.sum(count);
     if (count[0] > 0) return;
   }
   if (!looks_ahead) {
-    ranks.together([&] { pending.choose(nullptr, request.threads); });
+    ranks.together([&] {
+      pending.find_some(merged, search, std::numeric_limits<std::int64_t>::max());
+      pending.choose(nullptr, threads);
+    });
     return;
   }
   ranks.together([&] {
@@ -201,25 +200,29 @@ void VisibleDrawing::State::choose(Ranks& ranks, const VisibleRequest& request, 
     } else {
       ahead.assign(merged);
     }
-    pending.cover(ahead);
+    pending.cover(ahead, wave == 1 ? nullptr : &merged, search);
   });
   ranks.least(ahead.pixels());
   ranks.together([&] {
     ahead.build();
-    pending.choose(&ahead, request.threads);
+    pending.choose(&ahead, threads);
   });
 }
 
 // Bricks of ranks that have more to do than the mean go to those that have less.
 void VisibleDrawing::State::share(Ranks& ranks, std::span<const VolumePart> parts,
-                                  const VisibleRequest& request, int wave, VisiblePass::Seconds& seconds) {
+                                  const VisibleRequest& request, const EarlierWaves& earlier,
+                                  VisiblePass::Seconds& seconds) {
   taken.clear();
   if (ranks.size() == 1) return;
   std::vector<detail::Move> moves;
   {
     const Stopwatch time(seconds.partition);
     std::array<std::int64_t, 1> work{0};
-    ranks.together([&] { pending.weigh_chosen(wave > 1 ? &merged : nullptr, request.threads); });
+    ranks.together([&] {
+      const detail::ExpectedTriangles expected(request, earlier);
+      pending.weigh_chosen(parts, earlier.depths != nullptr ? &expected : nullptr, request.threads);
+    });
     for (const PendingBrick& brick : pending.bricks()) work[0] += brick.work;
     moves = detail::moves_for(ranks.all(work), kUneven);
   }
@@ -271,10 +274,12 @@ void VisibleDrawing::State::merge_depths(Ranks& ranks, const render::DepthScale&
 }
 
 // Pixels that show nothing and that something pending may cover.
-std::int64_t VisibleDrawing::State::count_open(Ranks& ranks) {
+std::int64_t VisibleDrawing::State::count_open(Ranks& ranks, const PartSearch& search) {
   ranks.together([&] {
     open_bits.assign(merged.words_a_row() * static_cast<std::size_t>(merged.height()), 0);
-    pending.mark_open(merged, open_bits);
+    ahead.assign_open(merged);
+    pending.close(ahead, merged, search);
+    ahead.mark_closed(merged, open_bits);
   });
   ranks.any(open_bits);
   std::int64_t count = 0;
@@ -282,10 +287,28 @@ std::int64_t VisibleDrawing::State::count_open(Ranks& ranks) {
   return count;
 }
 
+// How many parts are left that `merged` does not hide, of all ranks: exactly where they are no more than
+// `enough`, which does not depend on who has what, and otherwise more than that.
+std::int64_t VisibleDrawing::State::count_left(Ranks& ranks, const PartSearch& search, std::int64_t enough) {
+  std::array<std::int64_t, 2> left{};
+  const auto count = [&] {
+    left = {pending.pending_parts(), pending.far_bricks()};
+    ranks.sum(left);
+    return left[0] > enough || left[1] == 0;
+  };
+  // Each rank its share first, then as if it were alone.
+  for (const int share : {ranks.size(), 1}) {
+    if (count()) return left[0];
+    ranks.together([&] { pending.find_some(merged, search, enough / share); });
+  }
+  count();
+  return left[0];
+}
+
 // The parts that the merged depths of all waves but the last do not hide: what was seen, and a little more.
-void VisibleDrawing::State::remember_seen(const VisibleRequest& request, std::size_t wave) {
+void VisibleDrawing::State::remember_seen(const PartSearch& search, std::size_t wave) {
   pending.take_up_drawn();
-  if (wave > 1) pending.give_up_hidden(merged, request.threads);
+  if (wave > 1) pending.give_up_hidden(merged, search.request.threads);
   seen.assign(chosen.size(), 0);
   for (const PendingBrick& brick : pending.bricks()) seen[brick.word] = brick.pending;
 }
@@ -323,7 +346,7 @@ void VisibleDrawing::State::draw_wave(Ranks& ranks, std::span<const VolumePart> 
 VisibleReport VisibleDrawing::draw(Ranks& ranks, std::span<const VolumePart> parts,
                                    const VisibleRequest& request,
                                    const std::function<void(int)>& after_wave) {
-  const double start = omp_get_wtime();
+  double start = omp_get_wtime();
   State& state = *state_;
   const auto count_of_all = [&](std::int64_t mine) {
     std::array<std::int64_t, 1> count{mine};
@@ -332,45 +355,60 @@ VisibleReport VisibleDrawing::draw(Ranks& ranks, std::span<const VolumePart> par
   };
   VisibleReport report;
   double visibility = 0;
-  render::DepthScale scale;
-  {
+  const auto begin = [&] {
     const Stopwatch time(visibility);
     ranks.together([&] { state.prepare(parts, request); });
-    scale = state.place(ranks, request);
-  }
-  std::int64_t left = count_of_all(state.pending.pending_parts());
+    return state.place(ranks, parts, request);
+  };
+  const PartSearch search = begin();
+  std::int64_t left = 0;
   std::int64_t drawn = 0;
   for (int wave = 1;; ++wave) {
-    const double wave_start = omp_get_wtime();
+    double wave_start = omp_get_wtime();
     VisiblePass pass;
     pass.seconds.visibility = std::exchange(visibility, 0);
     {
       const Stopwatch time(pass.seconds.visibility);
-      const bool looks_ahead = wave <= kLookingAhead || (wave == kLookingAhead + 1 && left * kMuch > drawn);
-      state.choose(ranks, request, wave, looks_ahead);
+      const bool looks_ahead =
+          wave <= kLookingAhead ||
+          (wave == kLookingAhead + 1 && state.count_left(ranks, search, drawn / kMuch) > drawn / kMuch);
+      state.choose(ranks, search, wave, looks_ahead);
     }
-    state.share(ranks, parts, request, wave, pass.seconds);
-    state.draw_wave(ranks, parts, request, {wave > 1 ? &state.merged : nullptr, scale}, pass);
-    if (after_wave) after_wave(wave);
-    const std::int64_t before = std::exchange(left, count_of_all(state.pending.pending_parts()));
-    const std::int64_t drawn_now = before - left;
+    const std::int64_t drawn_now = count_of_all(state.pending.chosen_parts());
     drawn += drawn_now;
+    const EarlierWaves earlier{wave > 1 ? &state.merged : nullptr, search.scale};
+    state.share(ranks, parts, request, earlier, pass.seconds);
+    state.draw_wave(ranks, parts, request, earlier, pass);
+    if (after_wave) {
+      double aside = 0;
+      {
+        const Stopwatch time(aside);
+        after_wave(wave);
+      }
+      start += aside;
+      wave_start += aside;
+    }
+    left = wave > 1 ? state.count_left(ranks, search, 0)
+                    : count_of_all(state.pending.pending_parts() + state.pending.far_bricks());
     if (left > 0) {
       {
         const Stopwatch time(pass.seconds.composite);
-        state.merge_depths(ranks, scale);
+        state.merge_depths(ranks, search.scale);
       }
       const Stopwatch time(visibility);
-
       ranks.together([&] { state.pending.give_up_hidden(state.merged, request.threads); });
-      pass.uncovered_pixels = state.count_open(ranks);
-      left = count_of_all(state.pending.pending_parts());
+      left = state.count_left(ranks, search, 0);
+      pass.uncovered_pixels = left > 0 ? state.count_open(ranks, search) : 0;
       // The next wave may take all that is left, at this one's speed.
-      const double now = omp_get_wtime();
-      const double share = std::min(
-          1.0, static_cast<double>(left) / static_cast<double>(std::max<std::int64_t>(drawn_now, 1)));
-      const bool is_late =
-          request.budget_seconds && now - start + share * (now - wave_start) > *request.budget_seconds;
+      bool is_late = false;
+      if (request.budget_seconds) {
+        const std::int64_t about =
+            count_of_all(state.pending.pending_parts() + kPartsOfFar * state.pending.far_bricks());
+        const double share = std::min(
+            1.0, static_cast<double>(about) / static_cast<double>(std::max<std::int64_t>(drawn_now, 1)));
+        const double now = omp_get_wtime();
+        is_late = now - start + share * (now - wave_start) > *request.budget_seconds;
+      }
       std::array<std::int64_t, 1> late{is_late || wave == request.passes ? 1 : 0};
       ranks.most(late);
       report.finished = left == 0 || late[0] == 0;
@@ -380,7 +418,7 @@ VisibleReport VisibleDrawing::draw(Ranks& ranks, std::span<const VolumePart> par
   }
   ranks.together([&] {
     state.surfaces.frame().number();
-    state.remember_seen(request, report.passes.size());
+    state.remember_seen(search, report.passes.size());
   });
   tell_slowest(ranks, report);
   report.sum_up();

@@ -39,9 +39,9 @@ class VisibleDrawing {
 
   // All ranks call it with the same request. parts: must stay until shade(). What the last picture showed of
   // the same volume and isovalue is the first wave of the next one: call forget() when the volume changes.
-  // after_wave is told the number of each wave, from 1 on, when its triangles are drawn. Throws Error kUsage
-  // for a picture that cannot be, kInvalid for parts that do not fit, kUnsupported for too many bricks,
-  // kMemory.
+  // after_wave is told the number of each wave, from 1 on, when its triangles are drawn; what it does takes
+  // no time of the budget. Throws Error kUsage for a picture that cannot be, kInvalid for parts that do not
+  // fit, kUnsupported for too many bricks, kMemory.
   VisibleReport draw(Ranks& ranks, std::span<const VolumePart> parts, const VisibleRequest& request,
                      const std::function<void(int wave)>& after_wave = {});
   void forget();

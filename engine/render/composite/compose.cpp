@@ -1,28 +1,11 @@
 #include "engine/render/composite/compose.h"
 
-#include <omp.h>
-
 #include <algorithm>
 
 #include "engine/render/composite/send.h"
+#include "storage/base/stopwatch.h"
 
 namespace footwall::render {
-namespace {
-
-// Adds the time of its own life.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds), start_(omp_get_wtime()) {}
-  ~Stopwatch() { seconds_ += omp_get_wtime() - start_; }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& seconds_;
-  double start_;
-};
-
-}  // namespace
 
 SurfaceLayer Composer::compose(comm::Communicator& world, std::span<const LitSurface> surfaces,
                                const Camera& camera, const ComposeOptions& options, ComposeReport& report,

@@ -7,17 +7,6 @@
 
 namespace footwall::render {
 
-struct OwnedSurface {
-  Rgba colour = 0;
-  Placement placement;
-  std::vector<Vec3f> positions;
-  std::vector<Vec3f> normals;
-  std::vector<TriangleIndices> triangles;
-  std::vector<IdRun> runs;
-
-  LitSurface view() const { return {colour, placement, positions, normals, triangles, runs}; }
-};
-
 // How many bytes bytes_of() takes.
 std::int64_t size_of(std::span<const LitSurface> surfaces);
 comm::Bytes bytes_of(std::span<const LitSurface> surfaces);

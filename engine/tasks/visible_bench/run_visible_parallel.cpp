@@ -205,7 +205,7 @@ Run Bench::passes_of(const VisibleRequest& request) {
   comm::check(MPI_Barrier(world_.get()), "MPI_Barrier");
   const double start = omp_get_wtime();
   if (is_depth()) {
-    WorldRanks ranks(world_);
+    WorldRanks ranks(world_, job_);
     run.report = drawing_.draw(ranks, parts_->parts(), request);
   } else {
     extract_visible_paper(world_, volume_, octree_ ? &*octree_ : nullptr, request, job_.part(1, 1), {},

@@ -1,10 +1,13 @@
 // Goes through a TriangleSource's numbers part by part.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <vector>
 
+#include "storage/base/job_context.h"
+#include "storage/formats/detail/output_file.h"
 #include "storage/formats/triangle_source.h"
 
 namespace footwall::formats::detail {
@@ -36,5 +39,18 @@ class Records {
  private:
   std::vector<std::byte> bytes_;
 };
+
+// put(records, corners) for each triangle, in their order; what it puts is written.
+template <class Put>
+void write_triangles(OutputFile& out, const TriangleSource& source, const JobContext& job, Put&& put) {
+  using Corners = std::array<std::uint32_t, 3>;
+  Records records;
+  in_parts<Corners>(source.triangles, source.corners, [&](std::span<const Corners> part) {
+    job.check();
+    records.clear();
+    for (const Corners& corners : part) put(records, corners);
+    out.write(records.bytes());
+  });
+}
 
 }  // namespace footwall::formats::detail

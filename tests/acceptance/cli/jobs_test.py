@@ -2,7 +2,6 @@
 import json
 import os
 import pathlib
-import select
 import shutil
 import signal
 import stat
@@ -10,37 +9,14 @@ import subprocess
 import time
 import unittest
 
-from support import BIN, FootwallTest
+from processes import HeldRuns, go_on
+from support import BIN
 
 MPIRUN = ["mpirun", "--bind-to", "none", "--oversubscribe", "-n"]
 AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 
-def children(process):
-    """The ids of all processes below this one."""
-    found = []
-    try:
-        below = pathlib.Path(f"/proc/{process}/task/{process}/children").read_text().split()
-    except OSError:
-        return found
-    for child in map(int, below):
-        found += [child, *children(child)]
-    return found
-
-
-def is_rank(process):
-    """Whether it is an engine that has got as far as to heed signals."""
-    try:
-        if b"footwall-engine" not in pathlib.Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0")[0]:
-            return False
-        (caught,) = [line.split()[1] for line in pathlib.Path(f"/proc/{process}/status").read_text().splitlines()
-                     if line.startswith("SigCgt:")]
-    except OSError:
-        return False
-    return bool(int(caught, 16) >> (signal.SIGTERM - 1) & 1)
-
-
-class Jobs(FootwallTest):
+class Jobs(HeldRuns):
     def engine(self, ranks, *arguments, env=None, folder=None):
         return subprocess.run([*MPIRUN, str(ranks), str(BIN / "footwall-engine"), *map(str, arguments)], capture_output=True,
                               text=True, cwd=folder or self.folder, timeout=300, env={**os.environ, **AS_ROOT, **(env or {})})
@@ -204,35 +180,9 @@ exec mpirun --bind-to none --oversubscribe -n 3 "$@"
         self.assertEqual(started.returncode, 1)
         self.assertIn("started 3 times", started.stderr)
 
-    def running(self, *arguments):
-        """A run of the program whose ranks were found and stopped, so that it cannot end by itself: (process, all below it)."""
-        program = subprocess.Popen([str(BIN / "footwall"), *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   text=True, cwd=self.folder, env={**os.environ, "TMPDIR": self.path("tmp")})
-        ranks = []
-        while len(ranks) < 2 and program.poll() is None:
-            below = children(program.pid)
-            ranks = [process for process in below if is_rank(process)]
-        for rank in ranks:
-            os.kill(rank, signal.SIGSTOP)
-        self.assertIsNone(program.poll(), "it ended before it could be stopped")
-        return program, children(program.pid), ranks
-
-    def assert_gone(self, processes):
-        """Waits, without sleeping, until none of them runs."""
-        for process in processes:
-            try:
-                descriptor = os.pidfd_open(process)
-            except ProcessLookupError:
-                continue
-            try:
-                self.assertTrue(select.select([descriptor], [], [], 60)[0], f"process {process} outlived the program")
-            finally:
-                os.close(descriptor)
-
     def test_nothing_outlives_a_killed_program(self):
         project = self.synthetic(size="200x200x200")
-        (self.folder / "tmp").mkdir()
-        program, below, _ = self.running("extract", project, "--ranks", "2")
+        program, below, _ = self.held(2, "extract", project)
         program.kill()
         program.communicate()
         self.assert_gone(below)
@@ -243,12 +193,10 @@ exec mpirun --bind-to none --oversubscribe -n 3 "$@"
 
     def test_ctrl_c_leaves_nothing_behind(self):
         project = self.synthetic(size="200x200x200")
-        (self.folder / "tmp").mkdir()
         before = self.footwall("info", project)["runs"]
-        program, below, ranks = self.running("extract", project, "--ranks", "2")
+        program, below, ranks = self.held(2, "extract", project)
         program.send_signal(signal.SIGINT)
-        for rank in ranks:
-            os.kill(rank, signal.SIGCONT)
+        go_on(ranks)
         _, words = program.communicate(timeout=120)
         self.assertEqual(program.returncode, 130, words)
         self.assert_gone(below)
@@ -258,13 +206,11 @@ exec mpirun --bind-to none --oversubscribe -n 3 "$@"
     def test_a_job_that_must_make_room_says_that_it_can_go_on(self):
         project = self.synthetic(size="200x200x200")
         self.footwall("extract", project, "--write-job", "job", "--ranks", 2)
-        (self.folder / "tmp").mkdir()
         for number, whom in ((signal.SIGTERM, "rank"), (signal.SIGUSR1, "rank"), (signal.SIGUSR1, "footwall")):
             with self.subTest(signal=number.name, sent_to=whom):
-                program, below, ranks = self.running("batch", "job/JOB.json", "--ranks", "2", "--json")
+                program, below, ranks = self.held(2, "batch", "job/JOB.json", "--json")
                 os.kill(ranks[0] if whom == "rank" else program.pid, number)  # as Slurm does it, to tasks or to the script
-                for rank in ranks:
-                    os.kill(rank, signal.SIGCONT)
+                go_on(ranks)
                 told = time.monotonic()
                 answer, words = program.communicate(timeout=120)
                 self.assertLess(time.monotonic() - told, 20, "Slurm would have killed it")

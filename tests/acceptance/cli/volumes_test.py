@@ -47,6 +47,36 @@ class Volumes(FootwallTest):
         self.assertTrue(any("numbered from 1" in line for line in report["assumed"]))
         self.assertEqual(report["warnings"], [])
 
+    def test_all_options_that_are_missing_are_named_at_once(self):
+        means = {"--dims": "its size", "--domain": "time or depth", "--vertical-unit": "the unit of z",
+                 "--interval": "the sample interval"}
+        values = {"--dims": "6x5x8", "--domain": "time", "--vertical-unit": "ms", "--interval": "4"}
+
+        def check(names, *command):
+            error = self.refused(2, *command)
+            for name, meaning in means.items():
+                self.assertEqual(name in error["message"], name in names, error)
+                self.assertEqual(name in error["hint"], name in names, error)
+                self.assertEqual(meaning in error["message"], name in names, error)
+
+        for given in range(4):
+            told = [word for name in list(means)[:given] for word in (name, values[name])]
+            check(list(means)[given:], "new", "x.footwall", "--raw", "v.raw", *told)
+        check(["--domain"], "new", "x.footwall", "--raw", "v.raw", "--dims", "6x5x8", "--vertical-unit", "ms", "--interval", 4)
+        self.assertFalse(pathlib.Path(self.path("x.footwall")).exists())
+        self.footwall("new", "empty.footwall")
+        check(list(means), "import", "volume", "empty.footwall", "v.raw", "--raw")
+
+        self.project()
+        check(["--dims"], "import", "volume", "p.footwall", "v.raw", "--raw")  # the survey tells the rest
+        self.footwall("export", "p.footwall", "--segy", "v.sgy")
+        pathlib.Path(self.path("v.nrrd")).write_bytes(
+            b"NRRD0004\ntype: float\ndimension: 3\nsizes: 8 5 6\nencoding: raw\nendian: little\n\n"
+            + pathlib.Path(self.path("v.raw")).read_bytes())
+        for file in ("v.sgy", "v.nrrd"):
+            check(["--domain", "--vertical-unit"], "import", "volume", "empty.footwall", file)
+            check(["--vertical-unit"], "import", "volume", "empty.footwall", file, "--domain", "time")
+
     def test_one_time_slice_comes_back_from_nrrd_as_one(self):
         self.project("s.footwall", "--z", "8")
         before = self.footwall("info", "s.footwall")

@@ -12,8 +12,6 @@
 namespace footwall::render {
 namespace {
 
-using sample::Mesh;
-
 constexpr int kWidth = 150;
 constexpr int kHeight = 101;
 
@@ -55,16 +53,16 @@ Camera camera_at(double azimuth) {
 }
 
 struct Case {
-  std::vector<Mesh> whole;
+  std::vector<OwnedSurface> whole;
   // Which rank has the n-th block of triangles.
   std::size_t block = 1;
   std::vector<int> rank_of_block;
 };
 
-std::vector<Mesh> share_of(const Case& c, int rank) {
-  std::vector<Mesh> share;
-  for (const Mesh& mesh : c.whole) {
-    Mesh part = mesh;
+std::vector<OwnedSurface> share_of(const Case& c, int rank) {
+  std::vector<OwnedSurface> share;
+  for (const OwnedSurface& mesh : c.whole) {
+    OwnedSurface part = mesh;
     part.triangles.clear();
     part.runs.clear();
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -80,16 +78,16 @@ std::vector<Mesh> share_of(const Case& c, int rank) {
   return share;
 }
 
-std::vector<LitSurface> views(const std::vector<Mesh>& meshes) {
+std::vector<LitSurface> views(const std::vector<OwnedSurface>& meshes) {
   std::vector<LitSurface> surfaces;
-  for (const Mesh& mesh : meshes) surfaces.push_back(mesh.view());
+  for (const OwnedSurface& mesh : meshes) surfaces.push_back(mesh.view());
   return surfaces;
 }
 
 // Two balls of which one sticks out of the other, so that neighbours' pixels lie before and behind each
 // other.
-std::vector<Mesh> two_balls(int around) {
-  std::vector<Mesh> meshes{sample::ball(around, 0), sample::ball(around, 1 << 20)};
+std::vector<OwnedSurface> two_balls(int around) {
+  std::vector<OwnedSurface> meshes{sample::ball(around, 0), sample::ball(around, 1 << 20)};
   meshes[1].colour = hex(0x3080c0);
   meshes[1].placement.linear = {0.7, 0, 0, 0, 0, 0.7, 0, 0.7, 0};  // mirrored
   meshes[1].placement.shift = {0.3, -0.2, 0.1};
@@ -99,7 +97,7 @@ std::vector<Mesh> two_balls(int around) {
 void expect_one_ranks_picture(const Case& c, const Camera& camera, const std::string& what) {
   comm::Communicator world(MPI_COMM_WORLD);
   const Pixels want = drawn_alone(views(c.whole), camera, kWidth, kHeight);
-  const std::vector<Mesh> mine = share_of(c, world.rank());
+  const std::vector<OwnedSurface> mine = share_of(c, world.rank());
   Composer composer;
   for (const double threshold : {-1.0, 0.0, 0.1, 10.0, 1e9}) {
     ComposeReport report;
@@ -139,7 +137,7 @@ TEST(Compose, AllTrianglesMayBeOnOneRank) {
 
 TEST(Compose, OneTriangleOrNoneIsAPicture) {
   const comm::Communicator world(MPI_COMM_WORLD);
-  Mesh one = sample::floor(1, 7);
+  OwnedSurface one = sample::floor(1, 7);
   for (Vec3f& p : one.positions) p = {p.x / 100, p.y / 100, p.z};
   one.triangles.resize(1);
   for (int owner = 0; owner < world.size(); ++owner)
@@ -157,7 +155,7 @@ TEST(Compose, NothingIsSeenBehindTheEye) {
   for (int n = 0; n < world.size(); ++n) c.rank_of_block.push_back(n);
   const Camera away = Camera::look_at({0, 5, 0}, {0, 10, 0}, {0, 0, 1},
                                       std::array<Vec3, 2>{Vec3{-1, -1, -1}, Vec3{1, 1, 1}}, 1.5, true);
-  const std::vector<Mesh> mine = share_of(c, world.rank());
+  const std::vector<OwnedSurface> mine = share_of(c, world.rank());
   Composer composer;
   ComposeReport report;
   const Pixels seen =
@@ -172,7 +170,7 @@ TEST(Compose, GroupsMayHaveSeveralSizes) {
   Case c{two_balls(60), 30, {}};
   // The last rank has most.
   for (int n = 0; n < 3 * world.size(); ++n) c.rank_of_block.push_back(std::min(n, world.size() - 1));
-  const std::vector<Mesh> mine = share_of(c, world.rank());
+  const std::vector<OwnedSurface> mine = share_of(c, world.rank());
   const Pixels want = drawn_alone(views(c.whole), camera_at(300), kWidth, kHeight);
   std::vector<std::int64_t> most_steps;
   for (const std::int64_t memory : {0, 100'000, 400'000, 700'000, 1 << 30}) {
@@ -195,7 +193,7 @@ TEST(Compose, ARankWithoutRoomRefusesForItsPartner) {
   comm::Communicator world(MPI_COMM_WORLD);
   Case c{two_balls(60), 30, {}};
   for (int n = 0; n < 2 * world.size(); ++n) c.rank_of_block.push_back(n % world.size());
-  const std::vector<Mesh> mine = share_of(c, world.rank());
+  const std::vector<OwnedSurface> mine = share_of(c, world.rank());
   const Pixels want = drawn_alone(views(c.whole), camera_at(300), kWidth, kHeight);
   for (int poor = 0; poor < world.size(); ++poor) {
     const std::int64_t memory = world.rank() == poor ? 0 : 1 << 30;
@@ -223,7 +221,7 @@ TEST(Compose, EstimatedTimesDecideButDoNotChangeThePicture) {
   for (const std::size_t block : {1U, 150U}) {
     Case c{two_balls(60), block, {}};
     for (int n = 0; n < world.size(); ++n) c.rank_of_block.push_back(n);
-    const std::vector<Mesh> mine = share_of(c, world.rank());
+    const std::vector<OwnedSurface> mine = share_of(c, world.rank());
     const Pixels want = drawn_alone(views(c.whole), camera_at(70), kWidth, kHeight);
     const auto most_steps = [&](const GroupRates& rates) {
       Composer composer;
@@ -252,7 +250,7 @@ TEST(Compose, EstimatedTimesDecideButDoNotChangeThePicture) {
 }
 
 TEST(CoveredPixels, AreAboutThoseThatASurfaceShows) {
-  const std::vector<Mesh> balls = two_balls(200);
+  const std::vector<OwnedSurface> balls = two_balls(200);
   for (const double azimuth : {0.0, 70.0}) {
     for (const std::size_t count : {1U, 2U}) {
       const std::vector<LitSurface> all = views(balls);
@@ -267,7 +265,7 @@ TEST(CoveredPixels, AreAboutThoseThatASurfaceShows) {
   }
   EXPECT_EQ(covered_pixels({}, camera_at(0), kWidth, kHeight), 0);
   // Larger than the picture, and behind the eye.
-  const Mesh floor = sample::floor(1, 0);
+  const OwnedSurface floor = sample::floor(1, 0);
   const LitSurface one = floor.view();
   EXPECT_LE(covered_pixels(std::span(&one, 1), camera_at(0), kWidth, kHeight), kWidth * kHeight);
   const Camera away = Camera::look_at({0, 500, 0}, {0, 1000, 0}, {0, 0, 1},
@@ -284,7 +282,7 @@ TEST(Compose, LargePicturesAreMadeInBands) {
   static_assert(std::int64_t{kWide} * kHigh > Composer::kMostPixels);
   const Camera camera =
       Camera::look(20, 10, 1, Bounds{{-1, -1, -1}, {1, 1, 1}}, static_cast<double>(kWide) / kHigh, false);
-  const std::vector<Mesh> mine = share_of(c, world.rank());
+  const std::vector<OwnedSurface> mine = share_of(c, world.rank());
   Composer composer;
   ComposeReport report;
   const SurfaceLayer layer = composer.compose(world, views(mine), camera, {kWide, kHigh, 1, {-1, 0}}, report);
@@ -297,7 +295,7 @@ TEST(Compose, CountsWhatItGivesToMpi) {
   comm::Communicator world(MPI_COMM_WORLD);
   Case c{two_balls(60), 11, {}};
   for (int n = 0; n < world.size(); ++n) c.rank_of_block.push_back(n);
-  const std::vector<Mesh> mine = share_of(c, world.rank());
+  const std::vector<OwnedSurface> mine = share_of(c, world.rank());
   for (const double threshold : {-1.0, 0.1, 1e9}) {
     Composer composer;
     ComposeReport report;

@@ -3,34 +3,20 @@
 #include <gtest/gtest.h>
 
 #include "storage/base/splitmix64.h"
+#include "unit/isosurface_parallel/sample_pyramid.h"
 
 namespace footwall::isosurface {
 namespace {
 
-struct Pyramid {
-  std::vector<float> min, max;
-  std::vector<std::uint8_t> has_null;
-  Bricks bricks;
-
-  // One brick in `every` is crossed by the isovalue 0.
-  Pyramid(const survey::Index& dims, int every) {
-    SplitMix64 random(3);
-    bricks.dims = dims;
-    for (std::int64_t n = 0; n < dims[0] * dims[1] * dims[2]; ++n) {
-      const bool active = random.next() % static_cast<std::uint64_t>(every) == 0;
-      min.push_back(active ? -1 : 1);
-      max.push_back(2);
-      has_null.push_back(0);
-    }
-    bricks.min = min;
-    bricks.max = max;
-    bricks.has_null = has_null;
-  }
-};
+// One brick in `every` is crossed by the isovalue 0.
+Pyramid scattered(const survey::Index& dims, int every) {
+  SplitMix64 random(3);
+  return {dims, [&](const survey::Index&) { return random.next() % static_cast<std::uint64_t>(every) == 0; }};
+}
 
 TEST(ActiveBlocks, HoldEveryActiveBrickOnce) {
   for (const int every : {1, 5, 40, 400}) {
-    const Pyramid pyramid({9, 7, 12}, every);
+    const Pyramid pyramid = scattered({9, 7, 12}, every);
     const survey::Box cells{{3, 0, 5}, {70, 50, 93}};
     const std::vector<survey::Box> blocks = active_blocks(cells, {&pyramid.bricks, 0, false, 1 << 15});
     std::int64_t looked_at = 0;
@@ -65,7 +51,7 @@ TEST(ActiveBlocks, WithoutPyramidAllOfThePillar) {
 
 // A body that fills the border has a cap there, where no surface passes.
 TEST(ActiveBlocks, CapsWantTheFilledBorder) {
-  const Pyramid pyramid({4, 4, 4}, 1 << 30);
+  const Pyramid pyramid = scattered({4, 4, 4}, 1 << 30);
   const survey::Box cells{{0, 0, 0}, {32, 32, 32}};
   EXPECT_TRUE(active_blocks(cells, {&pyramid.bricks, 0, false, 1 << 20}).empty());
   EXPECT_EQ(active_blocks(cells, {&pyramid.bricks, 0, true, 1 << 20}), (std::vector<survey::Box>{cells}));

@@ -13,7 +13,7 @@ namespace {
 TEST(BrickNumbers, NoCellHasMoreTrianglesThanItsRoom) {
   std::size_t most = 0;
   for (const Pattern& pattern : tables::kPatterns) most = std::max(most, pattern.triangles.size());
-  EXPECT_EQ(most, BrickNumbers::kMostOfCell);
+  EXPECT_EQ(most, kMostTrianglesOfCell);
 }
 
 TEST(BrickNumbers, AscendAsTheWholeSurfacesTriangles) {

@@ -30,7 +30,7 @@ TEST(ScreenBoxes, HoldWhateverIsInside) {
       const LooseBox whole = boxes.of(cells);
       std::vector<render::ScreenBox> found(64);
       const BrickParts parts = random() | std::uint64_t{random()} << 32U;
-      const BrickParts kept = boxes.of_parts(cells, parts, scale, found.data());
+      const BrickParts kept = boxes.of_parts(cells, parts, boxes.scaled(whole, scale), scale, found.data());
       ASSERT_EQ(kept & ~parts, 0U);
       for (unsigned bit = 0; bit < 64; ++bit) {
         if ((parts >> bit & 1U) == 0) continue;

@@ -102,9 +102,9 @@ TEST(CoverageMask, TrianglesCoverWhatTheDefinitionSays) {
 
 TEST(CoverageMask, AMeshCoversThePixelsThatItIsDrawnOn) {
   // Of triangles of many pixels, and of few or none.
-  const sample::Mesh balls[] = {sample::ball(40, 0), sample::ball(200, 0)};
+  const OwnedSurface balls[] = {sample::ball(40, 0), sample::ball(200, 0)};
   for (int n = 0; n < 4; ++n) {
-    const sample::Mesh& ball = balls[n / 2];
+    const OwnedSurface& ball = balls[n / 2];
     const bool perspective = n % 2 == 0;
     for (const double zoom : {0.7, 3.0, 40.0}) {
       Camera camera = Camera::look(40, 20, zoom, Bounds{{-1, -1, -1}, {1, 1, 1}}, 1.5, perspective);

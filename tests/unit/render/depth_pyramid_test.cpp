@@ -54,17 +54,14 @@ TEST(DepthPyramid, HidesOnlyWhatLiesBehindEveryPixel) {
         asked.box.nearest = scale.of_box(asked.depth);
         bool is_hidden = true;
         bool is_far = true;  // by more than the steps' size
-        int before = 0;
         for (int y = std::max<int>(0, asked.box.y0); y <= std::min<int>(height - 1, asked.box.y1); ++y) {
           for (int x = std::max<int>(0, asked.box.x0); x <= std::min<int>(width - 1, asked.box.x1); ++x) {
             const float depth = depth_of(picture.at(x, y));
             is_hidden = is_hidden && picture.at(x, y) != kBackground && depth < asked.depth;
             is_far = is_far && picture.at(x, y) != kBackground &&
                      depth + 4 * DepthScale::kSlack + range / 2e4 < asked.depth;
-            before += pyramid.row(y)[static_cast<std::size_t>(x)] > asked.box.nearest ? 1 : 0;
           }
         }
-        EXPECT_EQ(pyramid.count_before(asked.box), before);
         const bool said = pyramid.hides(asked.box);
         if (said) {
           EXPECT_TRUE(is_hidden);
@@ -101,22 +98,65 @@ TEST(DepthPyramid, LeastOfPyramidsIsThatOfTheirPictures) {
     EXPECT_TRUE(std::equal(one.row(y).begin(), one.row(y).end(), other.row(y).begin())) << y;
 }
 
-TEST(DepthPyramid, MarksOpenPixelsOnce) {
-  DepthPyramid pyramid({10, 5, 99, 44, 0, 0});
-  pyramid.cover({20, 10, 29, 19, 0, 0}, 100);
+TEST(DepthPyramid, TellsTheFarthestOfABlock) {
+  std::mt19937 random(4);
+  const ScreenBox window{3, 5, 71, 42, 0, 0};
+  DepthPyramid pyramid(window);
+  for (int y = window.y0; y <= window.y1; ++y) {
+    for (int x = window.x0; x <= window.x1; ++x)
+      pyramid.cover({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y), static_cast<std::int16_t>(x),
+                     static_cast<std::int16_t>(y), 0, 0},
+                    static_cast<CoarseDepth>(random() % 60000));
+  }
   pyramid.build();
-  std::vector<std::uint64_t> bits(pyramid.words_a_row() * 40);
-  const auto count = [&] {
-    int all = 0;
-    for (const std::uint64_t word : bits) all += std::popcount(word);
-    return all;
-  };
-  pyramid.mark_open({15, 10, 34, 10, 0, 0}, bits);
-  EXPECT_EQ(count(), 10);
-  pyramid.mark_open({15, 10, 34, 10, 0, 0}, bits);
-  EXPECT_EQ(count(), 10);
-  pyramid.mark_open({-5, -5, 200, 200, 0, 0}, bits);
-  EXPECT_EQ(count(), 90 * 40 - 100);
+  for (const std::size_t level : {0U, 1U, 2U}) {
+    const int size = 1 << level;
+    for (int y = window.y0; y <= window.y1; ++y) {
+      for (int x = window.x0; x <= window.x1; ++x) {
+        const int left = window.x0 + (x - window.x0) / size * size;
+        const int top = window.y0 + (y - window.y0) / size * size;
+        CoarseDepth farthest = 0;
+        for (int row = top; row < top + size && row <= window.y1; ++row) {
+          for (int column = left; column < left + size && column <= window.x1; ++column)
+            farthest = std::max(farthest, pyramid.row(row)[static_cast<std::size_t>(column - window.x0)]);
+        }
+        ASSERT_EQ(pyramid.farthest_around(x, y, level), farthest);
+      }
+    }
+  }
+  EXPECT_EQ(pyramid.farthest_around(3, 5, 40), pyramid.farthest_around(3, 5, 3));  // 9 x 5 numbers
+}
+
+TEST(DepthPyramid, MarksWhatIsNoLongerOpen) {
+  for (const int width : {1, 15, 64, 90, 129}) {
+    const auto last = static_cast<std::int16_t>(9 + width);
+    DepthPyramid before({10, 5, last, 44, 0, 0});
+    before.cover({20, 10, 29, 19, 0, 0}, 100);
+    before.build();
+    DepthPyramid now(before.window());
+    now.assign_open(before);
+    std::vector<std::uint64_t> bits(now.words_a_row() * 40);
+    const auto count = [&] {
+      std::fill(bits.begin(), bits.end(), 0);
+      now.mark_closed(before, bits);
+      int all = 0;
+      for (const std::uint64_t word : bits) all += std::popcount(word);
+      return all;
+    };
+    EXPECT_EQ(count(), 0);
+    for (int again = 0; again < 2; ++again) {
+      now.cover({15, 10, 34, 10, 0, 0}, 0);
+      now.build();
+      EXPECT_EQ(count(), std::clamp(last - 14, 0, 20) - std::clamp(last - 19, 0, 10)) << width;
+    }
+    for (std::int16_t x = 10; x <= last; ++x) {
+      const bool is_open = x < 15 || x > 34;
+      EXPECT_EQ(now.is_closed({x, 10, x, 10, 0, 0}), !is_open) << x;
+      EXPECT_FALSE(now.is_closed({x, 9, x, 10, 0, 0}));
+    }
+    now.cover({-5, -5, 200, 200, 0, 0}, 0);
+    EXPECT_EQ(count(), width * 40 - 10 * std::clamp(last - 19, 0, 10));
+  }
 }
 
 TEST(DepthPyramid, DepthsAreRoundedToTheSafeSide) {

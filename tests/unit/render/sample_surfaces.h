@@ -7,19 +7,12 @@
 
 namespace footwall::render::sample {
 
-struct Mesh {
-  Rgba colour = hex(0xd08040);
-  Placement placement;
-  std::vector<Vec3f> positions;
-  std::vector<Vec3f> normals;
-  std::vector<TriangleIndices> triangles;
-  std::vector<IdRun> runs;
-  LitSurface view() const { return {colour, placement, positions, normals, triangles, runs}; }
-};
+inline constexpr Rgba kColour = hex(0xd08040);
 
 // A ball of radius 0.9 with lumps: a cube's six faces of n x n squares, n = around / 4, blown up.
-inline Mesh ball(int around, PrimitiveId first_id) {
-  Mesh mesh;
+inline OwnedSurface ball(int around, PrimitiveId first_id) {
+  OwnedSurface mesh;
+  mesh.colour = kColour;
   const int n = std::max(1, around / 4);
   for (int face = 0; face < 6; ++face) {
     const auto first = static_cast<std::int32_t>(mesh.positions.size());
@@ -56,8 +49,9 @@ inline Mesh ball(int around, PrimitiveId first_id) {
 }
 
 // A square of 100 x 100 at z = -0.2, in n x n squares; its normals tilt from south to north.
-inline Mesh floor(int n, PrimitiveId first_id) {
-  Mesh mesh;
+inline OwnedSurface floor(int n, PrimitiveId first_id) {
+  OwnedSurface mesh;
+  mesh.colour = kColour;
   for (int a = 0; a <= n; ++a) {
     for (int b = 0; b <= n; ++b) {
       const float x = 100.0F * static_cast<float>(a) / static_cast<float>(n) - 50;
@@ -78,8 +72,8 @@ inline Mesh floor(int n, PrimitiveId first_id) {
 }
 
 // The triangles of every `of`-th block of `block`, with their numbers.
-inline Mesh every(const Mesh& mesh, std::size_t of, std::size_t which, std::size_t block) {
-  Mesh part = mesh;
+inline OwnedSurface every(const OwnedSurface& mesh, std::size_t of, std::size_t which, std::size_t block) {
+  OwnedSurface part = mesh;
   part.triangles.clear();
   part.runs.clear();
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -15,8 +15,6 @@
 namespace footwall::render {
 namespace {
 
-using sample::Mesh;
-
 constexpr int kWidth = 160;
 constexpr int kHeight = 120;
 
@@ -49,7 +47,7 @@ Camera camera_at(double azimuth, bool perspective) {
 // Every pixel of a picture of one ball is the one that the definition of coverage says, and the nearest.
 TEST(SurfaceFrame, DrawsWhatTheTrianglesOneByOneGive) {
   for (const int around : {6, 40, 700}) {
-    const Mesh mesh = sample::ball(around, 5);
+    const OwnedSurface mesh = sample::ball(around, 5);
     for (const bool perspective : {true, false}) {
       const Camera camera = camera_at(33, perspective);
       const LitSurface surface = mesh.view();
@@ -69,7 +67,7 @@ TEST(SurfaceFrame, DrawsWhatTheTrianglesOneByOneGive) {
 }
 
 TEST(SurfaceFrame, ThreadsAndInstructionSetsChangeNoBit) {
-  const Mesh mesh = sample::ball(260, 0);
+  const OwnedSurface mesh = sample::ball(260, 0);
   const LitSurface surface = mesh.view();
   const Camera camera = camera_at(80, true);
   const Drawn want = draw(std::span(&surface, 1), camera, 1);
@@ -85,11 +83,11 @@ TEST(SurfaceFrame, ThreadsAndInstructionSetsChangeNoBit) {
 // Parts in any order, numbered as in the whole, give the whole's picture; so do parts of parts drawn
 // together.
 TEST(SurfaceFrame, PartsThatAreNumberedAsTheWholeGiveItsPicture) {
-  const Mesh mesh = sample::ball(90, 0);
+  const OwnedSurface mesh = sample::ball(90, 0);
   const LitSurface whole = mesh.view();
   const Camera camera = camera_at(10, true);
   const Drawn want = draw(std::span(&whole, 1), camera, 1);
-  std::vector<Mesh> parts;
+  std::vector<OwnedSurface> parts;
   for (std::size_t n = 0; n < 5; ++n) parts.push_back(sample::every(mesh, 5, n, 37));
   std::vector<LitSurface> surfaces;
   for (const std::size_t n : {3U, 0U, 4U, 1U, 2U}) surfaces.push_back(parts[n].view());
@@ -99,18 +97,19 @@ TEST(SurfaceFrame, PartsThatAreNumberedAsTheWholeGiveItsPicture) {
 TEST(SurfaceFrame, LightsTheSideThatIsSeen) {
   const Camera camera = Camera::look(0, 0, 1, Bounds{{-1, -1, -1}, {1, 1, 1}}, 4.0 / 3, false);
   // Facing the eye, which looks north.
-  Mesh mesh;
+  OwnedSurface mesh;
+  mesh.colour = sample::kColour;
   mesh.positions = {{-0.8F, 0, -0.8F}, {0.8F, 0, -0.8F}, {0, 0, 0.8F}};
   mesh.normals.assign(3, {0, -1, 0});
   mesh.triangles = {{0, 1, 2}};
   mesh.runs = {{0, 0}};
-  const auto middle = [&](const Mesh& what) {
+  const auto middle = [&](const OwnedSurface& what) {
     const LitSurface surface = what.view();
     const Drawn drawn = draw(std::span(&surface, 1), camera, 1);
     return drawn.colours[kWidth * (kHeight / 2) + kWidth / 2];
   };
   const Rgba front = middle(mesh);
-  Mesh behind = mesh;
+  OwnedSurface behind = mesh;
   std::swap(behind.triangles[0][1], behind.triangles[0][2]);
   behind.normals.assign(3, {0, 1, 0});
   const Rgba back = middle(behind);
@@ -118,7 +117,7 @@ TEST(SurfaceFrame, LightsTheSideThatIsSeen) {
   EXPECT_GT(red(back), red(front) / 2);
 
   // A mirroring map turns winding and normals; what is drawn is the same.
-  Mesh mirrored = mesh;
+  OwnedSurface mirrored = mesh;
   mirrored.placement.linear = {-1, 0, 0, 0, 1, 0, 0, 0, 1};
   std::swap(mirrored.positions[0], mirrored.positions[1]);
   for (Vec3f& p : mirrored.positions) p.x = -p.x;
@@ -127,23 +126,23 @@ TEST(SurfaceFrame, LightsTheSideThatIsSeen) {
   EXPECT_EQ(middle(mirrored), front);
 
   // Turned away from the light it is darker; in between, between (Gouraud).
-  Mesh slanted = mesh;
+  OwnedSurface slanted = mesh;
   slanted.normals[2] = {0, 0, -1};
   EXPECT_LT(red(middle(slanted)), red(front));
   // A stretched frame: normals go by the inverse transpose and stay the surface's.
-  Mesh stretched = mesh;
+  OwnedSurface stretched = mesh;
   stretched.placement.linear = {1, 0, 0, 0, 50, 0, 0, 0, 1};
   EXPECT_EQ(middle(stretched), front);
 }
 
 // Interpolated between the corners even where one of them is behind the eye.
 TEST(SurfaceFrame, ClippedTrianglesAreShadedAsTheRest) {
-  const Mesh plane = sample::floor(1, 0);
+  const OwnedSurface plane = sample::floor(1, 0);
   Camera camera = Camera::look_at({0, 0, 0.3}, {0, 5, 0}, {0, 0, 1},
                                   std::array<Vec3, 2>{Vec3{-50, -50, 0}, Vec3{50, 50, 0}}, 4.0 / 3, true);
   const LitSurface coarse = plane.view();
   const Drawn large = draw(std::span(&coarse, 1), camera, 1);
-  const Mesh fine = sample::floor(64, 0);
+  const OwnedSurface fine = sample::floor(64, 0);
   const LitSurface many = fine.view();
   const Drawn small = draw(std::span(&many, 1), camera, 1);
   int compared = 0;
@@ -228,10 +227,10 @@ TEST(SurfaceFrame, HitsEachPixelOfAClosedFanExactlyOnce) {
 }
 
 TEST(SurfaceFrame, RefusesWhatIsNotSound) {
-  Mesh mesh = sample::ball(8, 0);
+  OwnedSurface mesh = sample::ball(8, 0);
   check(mesh.view());
-  const auto refused = [](const Mesh& what) { EXPECT_THROW(check(what.view()), Error); };
-  Mesh broken = mesh;
+  const auto refused = [](const OwnedSurface& what) { EXPECT_THROW(check(what.view()), Error); };
+  OwnedSurface broken = mesh;
   broken.normals.pop_back();
   refused(broken);
   broken = mesh;

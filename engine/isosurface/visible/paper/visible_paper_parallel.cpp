@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <ctime>
 
 #include "engine/isosurface/visible/paper/merge_masks.h"
 #include "engine/isosurface/visible/paper/partition.h"
@@ -13,36 +12,12 @@
 #include "engine/isosurface/visible/paper/visible_paper.h"
 #include "engine/isosurface/visible/paper/workload.h"
 #include "engine/render/composite/send.h"
+#include "storage/base/stopwatch.h"
 
 namespace footwall::isosurface {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<survey::Box>);
-
-double processor_seconds() {
-  timespec now{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
-}
-
-// Adds the time of its own life, and the processor's.
-class Stopwatch {
- public:
-  Stopwatch(double& seconds, double& busy)
-      : seconds_(seconds), busy_(busy), start_(omp_get_wtime()), start_busy_(processor_seconds()) {}
-  ~Stopwatch() {
-    seconds_ += omp_get_wtime() - start_;
-    busy_ += processor_seconds() - start_busy_;
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& seconds_;
-  double& busy_;
-  double start_;
-  double start_busy_;
-};
 
 // What a rank did in a pass.
 struct Share {
@@ -292,8 +267,7 @@ class Passes {
 
   // 3. Each rank learns its cells.
   Assignment assigned(const std::vector<Assignment>& all) {
-    double busy = 0;
-    const Stopwatch time(mine_.seconds.assign, busy);
+    const Stopwatch time(mine_.seconds.assign);
     return assign(world_, all);
   }
 
@@ -315,8 +289,7 @@ class Passes {
   // 5. The masks of all ranks to rank 0, and what was done.
   void composite() {
     {
-      double busy = 0;
-      const Stopwatch time(mine_.seconds.composite, busy);
+      const Stopwatch time(mine_.seconds.composite);
       merge_masks(world_, *covered_);
     }
     const Done done = pass_of(world_, mine_);

@@ -7,7 +7,10 @@
 namespace footwall::isosurface {
 
 void WorldRanks::together(const std::function<void()>& work) {
-  world_.collectively([&] { work(); });
+  world_.collectively([&] {
+    job_.check();
+    work();
+  });
 }
 
 void WorldRanks::reduce(void* values, std::size_t count, MPI_Datatype type, MPI_Op operation,

@@ -1,14 +1,18 @@
 // The ranks of a communicator, as a drawing of only what can be seen takes them.
 #pragma once
+#include <utility>
+
 #include "engine/comm/communicator.h"
 #include "engine/isosurface/visible/ranks.h"
+#include "storage/base/job_context.h"
 
 namespace footwall::isosurface {
 
-// Errors are thrown on all ranks alike (AgreedError). Messages are counted in the communicator's traffic.
+// Errors are thrown on all ranks alike (AgreedError); kCancelled by every together() once the job of any rank
+// was cancelled, so that all leave at the same point. Messages are counted in the communicator's traffic.
 class WorldRanks final : public Ranks {
  public:
-  explicit WorldRanks(comm::Communicator& world) : world_(world) {}
+  explicit WorldRanks(comm::Communicator& world, JobContext job = {}) : world_(world), job_(std::move(job)) {}
 
   int rank() const override { return world_.rank(); }
   int size() const override { return world_.size(); }
@@ -24,6 +28,7 @@ class WorldRanks final : public Ranks {
   void reduce(void* values, std::size_t count, MPI_Datatype type, MPI_Op operation, std::size_t bytes);
 
   comm::Communicator& world_;
+  JobContext job_;
 };
 
 }  // namespace footwall::isosurface
