@@ -1,5 +1,7 @@
 #include "engine/service/resident/doorbell.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <thread>
 
