@@ -12,10 +12,11 @@ namespace {
 
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
 constexpr std::size_t kCacheLine = 64;
+constexpr std::size_t kFilledPerLook = std::size_t{1} << 21;  // values
 
 }  // namespace
 
-Block::Block(const survey::Box& own, const survey::Index& dims) : own_(own) {
+Block::Block(const survey::Box& own, const survey::Index& dims, const JobContext& job) : own_(own) {
   if (own.empty()) return;
   const survey::Box around{{own.lo[0] - 1, own.lo[1] - 1, own.lo[2]},
                            {own.hi[0] + 1, own.hi[1] + 1, own.hi[2]}};
@@ -31,7 +32,11 @@ Block::Block(const survey::Box& own, const survey::Index& dims) : own_(own) {
   if (!values_) throw std::bad_alloc();
   // Only advice: refused, it is slower and nothing else.
   if (large) madvise(values_.get(), bytes, MADV_HUGEPAGE);
-  std::fill_n(values_.get(), count, std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t from = 0; from < count; from += kFilledPerLook) {
+    job.check();
+    std::fill_n(values_.get() + from, std::min(kFilledPerLook, count - from),
+                std::numeric_limits<float>::quiet_NaN());
+  }
 }
 
 void Block::put(const survey::Box& part, std::span<const float> values) {

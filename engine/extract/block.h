@@ -5,14 +5,16 @@
 #include <memory>
 #include <span>
 
+#include "storage/base/job_context.h"
 #include "storage/survey/box.h"
 
 namespace footwall::extract {
 
 class Block {
  public:
-  // All NaN at first. `own` may be empty (then nothing is stored); throws std::bad_alloc.
-  Block(const survey::Box& own, const survey::Index& dims);
+  // All NaN at first. `own` may be empty (then nothing is stored); throws std::bad_alloc, kCancelled (looked
+  // at every few MiB: new memory takes its time).
+  Block(const survey::Box& own, const survey::Index& dims, const JobContext& job = {});
 
   const survey::Box& own() const { return own_; }
   // What has to be read: own with its halo, inside the survey.

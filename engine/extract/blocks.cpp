@@ -4,8 +4,8 @@
 
 namespace footwall::extract {
 
-Blocks::Blocks(const comm::RankGrid& grid, int rank) {
-  for (const survey::Box& box : grid.boxes(rank)) blocks_.emplace_back(box, grid.dims());
+Blocks::Blocks(const comm::RankGrid& grid, int rank, const JobContext& job) {
+  for (const survey::Box& box : grid.boxes(rank)) blocks_.emplace_back(box, grid.dims(), job);
 }
 
 const Block* Blocks::owning(const survey::Index& voxel) const {

@@ -10,8 +10,8 @@ namespace footwall::extract {
 
 class Blocks {
  public:
-  // All NaN at first; no block at all for a rank without voxels. Throws std::bad_alloc.
-  Blocks(const comm::RankGrid& grid, int rank);
+  // All NaN at first; no block at all for a rank without voxels. Throws std::bad_alloc, kCancelled.
+  Blocks(const comm::RankGrid& grid, int rank, const JobContext& job = {});
 
   std::span<const Block> all() const { return blocks_; }
   std::span<Block> all() { return blocks_; }

@@ -51,7 +51,7 @@ LoadedSurvey::LoadedSurvey(const comm::Communicator& parent, const survey::Index
     }
     return comm::RankGrid(dims, parent.size(), pillars);
   });
-  state_ = std::make_unique<State>(parent, grid);
+  state_ = std::make_unique<State>(parent, grid, job);
   read_blocks(state_->world, read, job, state_->blocks);
   state_->read_seconds = omp_get_wtime() - start;
 }

@@ -14,10 +14,10 @@ namespace footwall::extract {
 
 struct LoadedSurvey::State {
   // Collective.
-  State(const comm::Communicator& parent, const comm::RankGrid& its_grid)
+  State(const comm::Communicator& parent, const comm::RankGrid& its_grid, const JobContext& job)
       : grid(its_grid),
         world(parent, grid),
-        blocks(world.collectively([&] { return Blocks(grid, world.rank()); })),
+        blocks(world.collectively([&] { return Blocks(grid, world.rank(), job); })),
         remote(
             world.collectively([&] { return std::make_unique<RemoteVoxels>(grid, blocks, world.rank()); })),
         directory(world.collectively([&] { return CacheDirectory(grid); })) {}

@@ -1,4 +1,7 @@
 // Statistics of the model's faces: all, those that changed, or some.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <set>
 
 #include "engine/extract/computations.h"
@@ -137,7 +140,7 @@ void extract(ResidentState& state, const v1::Command& command, const Send& send,
     extract::Options options;
     Extraction* extraction;  // null where only some faces are asked for
   };
-  const auto [volume, options, extraction] = state.world.collectively([&] {
+  const Asked found = state.world.collectively([&] {
     Asked asked{&state.volumes.find(request.volume()), options_from(request.options(), state.threads),
                 nullptr};
     if (request.has_only() && request.changed_only()) {
@@ -148,6 +151,9 @@ void extract(ResidentState& state, const v1::Command& command, const Send& send,
     return asked;
   });
 
+  OpenVolume* const volume = found.volume;
+  const extract::Options& options = found.options;
+  Extraction* const extraction = found.extraction;
   const JobContext computing = job.part(0, 0.95);
   const bool is_all = extraction != nullptr && !(request.changed_only() && extraction->complete);
   const Numbers numbers = extraction == nullptr ? some(state, *volume, options, request.only(), computing)

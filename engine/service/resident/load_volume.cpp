@@ -8,7 +8,7 @@ namespace footwall::service {
 namespace {
 
 // What is read between two looks at cancel.
-constexpr std::int64_t kPieceBytes = std::int64_t{16} << 20;
+constexpr std::int64_t kPieceBytes = std::int64_t{8} << 20;
 
 }  // namespace
 

@@ -23,7 +23,7 @@ class VolumeLoader {
   // Of each rank: its voxels with their halo; and what reading takes besides.
   std::vector<std::int64_t> bytes_that_stay() const;
   std::vector<std::int64_t> bytes_that_pass() const;
-  // Collective; cancelled within some 16 MiB of reading. Throws kMemory, kCorrupt, kCancelled.
+  // Collective; cancelled within some 8 MiB of reading. Throws kMemory, kCorrupt, kCancelled.
   std::unique_ptr<extract::LoadedSurvey> load(const JobContext& job);
 
  private:

@@ -1,5 +1,7 @@
 #include "bench/service/bench_calls.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace footwall::service {

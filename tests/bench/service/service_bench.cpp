@@ -1,5 +1,6 @@
 // How fast a resident engine answers, without RPC: from a call's push to its end. Prints one table.
 //   mpiexec --oversubscribe --bind-to none -n 2 build/release/bin/bench_service [MOVES [MOVES FOR MEMORY]]
+#include <fmt/format.h>
 #include <mpi.h>
 #include <time.h>
 
