@@ -10,7 +10,7 @@ import subprocess
 import time
 import unittest
 
-from support import BIN, FootwallTest
+from support import BIN, SOURCE, FootwallTest
 
 MPIRUN = ["mpirun", "--bind-to", "none", "--oversubscribe", "-n"]
 AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
@@ -203,6 +203,14 @@ exec mpirun --bind-to none --oversubscribe -n 3 "$@"
         started = self.start("extract", project, env={**slurm, "SLURM_STEP_ID": "0", "SLURM_STEP_NUM_TASKS": "3"})
         self.assertEqual(started.returncode, 1)
         self.assertIn("started 3 times", started.stderr)
+
+    def test_the_script_for_projects_on_shared_disks_attaches_what_it_made(self):
+        project = self.synthetic()
+        script = SOURCE / "packaging" / "slurm" / "extract.sbatch"
+        done = subprocess.run(["bash", str(script), project], cwd=self.folder, capture_output=True, text=True,
+                              env={**os.environ, **AS_ROOT, "PATH": f"{BIN}:{os.environ['PATH']}"})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len(self.footwall("info", project)["runs"]), 1)
 
     def running(self, *arguments):
         """A run of the program whose ranks were found and stopped, so that it cannot end by itself: (process, all below it)."""
