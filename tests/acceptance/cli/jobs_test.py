@@ -9,8 +9,8 @@ import subprocess
 import time
 import unittest
 
-from processes import HeldRuns, go_on
-from support import BIN
+from processes import HeldRuns, children, go_on, is_rank
+from support import BIN, SOURCE
 
 MPIRUN = ["mpirun", "--bind-to", "none", "--oversubscribe", "-n"]
 AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
@@ -179,6 +179,14 @@ exec mpirun --bind-to none --oversubscribe -n 3 "$@"
         started = self.start("extract", project, env={**slurm, "SLURM_STEP_ID": "0", "SLURM_STEP_NUM_TASKS": "3"})
         self.assertEqual(started.returncode, 1)
         self.assertIn("started 3 times", started.stderr)
+
+    def test_the_script_for_projects_on_shared_disks_attaches_what_it_made(self):
+        project = self.synthetic()
+        script = SOURCE / "packaging" / "slurm" / "extract.sbatch"
+        done = subprocess.run(["bash", str(script), project], cwd=self.folder, capture_output=True, text=True,
+                              env={**os.environ, **AS_ROOT, "PATH": f"{BIN}:{os.environ['PATH']}"})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len(self.footwall("info", project)["runs"]), 1)
 
     def test_nothing_outlives_a_killed_program(self):
         project = self.synthetic(size="200x200x200")
