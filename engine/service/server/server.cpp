@@ -163,6 +163,8 @@ Server::State::~State() {
     server->Wait();
   }
   if (pillars.joinable()) pillars.join();
+  std::error_code not_empty;  // a task that the ranks still hold removes its own part
+  std::filesystem::remove(services->scratch, not_empty);
 }
 
 Server::Server(const ServerOptions& options, CallQueue& queue, std::function<ResidentStatus()> status,

@@ -1,6 +1,7 @@
 #include "engine/service/server/requests/rank_call.h"
 
 #include <fmt/format.h>
+#include <google/protobuf/stubs/logging.h>
 
 #include "engine/service/engine.pb.h"
 #include "engine/service/server/requests/failure.h"
@@ -18,7 +19,10 @@ std::unique_ptr<google::protobuf::Message> new_message(const google::protobuf::D
 }
 
 void parse(google::protobuf::io::ZeroCopyInputStream& bytes, google::protobuf::Message& into) {
-  if (into.ParseFromZeroCopyStream(&bytes)) return;
+  {
+    const google::protobuf::LogSilencer quiet;  // clients' bytes would fill the log
+    if (into.ParseFromZeroCopyStream(&bytes)) return;
+  }
   throw Error(ErrorCode::kInvalid, fmt::format("the message is not a {}", into.GetDescriptor()->name()),
               "client and engine may be of different versions");
 }
