@@ -2,6 +2,7 @@
 import dataclasses
 import json
 import os
+import socket
 import stat
 
 from .errors import Error
@@ -18,7 +19,12 @@ class Connection:
     address: str
     token: str = dataclasses.field(repr=False)
     certificate: str = dataclasses.field(default="", repr=False)
-    host: str = ""
+    host: str = ""  # where the engine runs
+
+    @property
+    def is_here(self):
+        """Whether the engine sees this machine's files. A socket may be the near end of a tunnel: the host tells."""
+        return self.address.startswith("unix:") and self.host in ("", socket.gethostname())
 
 
 def read(path):

@@ -19,6 +19,7 @@ from .serving import Served
 from .tiles import inflated, put_tile
 
 ANSWERED_AT_ONCE = 5.0  # seconds
+USUAL = ("count", "mean", "variance", "min", "max", "discontinuity", "contrast")  # as `footwall extract`
 running = weakref.WeakSet()
 
 
@@ -123,7 +124,7 @@ class Engine:
         --volumes`), or, on this machine, where the project has it. progress(fraction, phase, amounts) is called
         now and then."""
         name = engine_pb2.VolumeName(checksum=self._checksum(volume))
-        if self.project is not None and self._caller.connection.address.startswith("unix:"):
+        if self.project is not None and self._caller.connection.is_here:
             name.path = str(self.project.volume_path(self._name(name.checksum)))
         for reply in self._caller.listen("OpenVolume", engine_pb2.OpenVolumeRequest(volume=name), progress):
             if reply.HasField("opened"):
@@ -142,7 +143,7 @@ class Engine:
         shape = tuple(int(b) - int(a) for a, b in zip(lo, hi))
         ends = [engine_pb2.Index(i=int(end[0]), j=int(end[1]), k=int(end[2])) for end in (lo, hi)]
         request = engine_pb2.ReadBoxRequest(volume=self._checksum(volume), box=engine_pb2.Box(lo=ends[0], hi=ends[1]),
-                                            compress=not self._caller.connection.address.startswith("unix:"))
+                                            compress=not self._caller.connection.is_here)
         size = 4 * int(numpy.prod(shape, dtype=numpy.int64))
         pieces = bytearray()
         for reply in self._caller.listen("ReadBox", request):
@@ -203,9 +204,9 @@ class Engine:
             edits.append(engine_pb2.Edit(replace=engine_pb2.ReplaceFault(fault=number, faces=part.message())))
         self._caller.ask("EditModel", engine_pb2.EditBatch(edit=self.next_edit(), edits=edits))
 
-    def extract(self, volume=None, compute=(), changed_only=False, progress=None, **how):
+    def extract(self, volume=None, compute=USUAL, changed_only=False, progress=None, **how):
         """EXTRACT-ALL over the model: Numbers of all faces, or with changed_only of those that changed since the
-        last time with these options. compute: names as `footwall extract --compute` (none: the usual ones). how:
+        last time with these options. compute: names as `footwall extract --compute`. how:
         exchange, balance, voxelizer. Nothing is stored."""
         request = engine_pb2.ExtractRequest(volume=self._checksum(volume), changed_only=changed_only,
                                             options=engine_pb2.ExtractOptions(compute=compute, **how))
@@ -217,7 +218,7 @@ class Engine:
                 edit = reply.done.edit
         return Numbers.joined(parts, edit)
 
-    def live(self, volume=None, compute=(), **how):
+    def live(self, volume=None, compute=USUAL, **how):
         """A Live, for a `with` block: edits as they are made, numbers as they are ready. compute, how: as for
         extract()."""
         return Live(self, self._caller, self._checksum(volume), engine_pb2.ExtractOptions(compute=compute, **how))
