@@ -48,7 +48,6 @@ class Served:
             if status is not None:
                 raise Error("engine", "the engine did not start: " + self._last_words(status))
             if time.monotonic() > deadline:
-                self.end()
                 raise Error("engine", f"the engine was not ready within {seconds} seconds", self._last_words(None))
             time.sleep(0.02)
 
@@ -65,3 +64,4 @@ class Served:
             except subprocess.TimeoutExpired:
                 self._process.kill()
                 self._process.wait()
+        self._words.close()
