@@ -1,5 +1,6 @@
 // A volume in other programs' formats. volume: its name, empty for the first.
 #pragma once
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -16,6 +17,16 @@ namespace footwall::tasks {
 std::int64_t export_raw(const project::Project& project, const std::string& volume,
                         const std::filesystem::path& file, const formats::raw::WriteOptions& options,
                         const JobContext& job);
+// One plane of it, by the words of section_plane(): the two axes that are left, in their order; nulls as NaN.
+struct RawSection {
+  int axis = 0;                      // that is left out
+  std::int64_t index = 0;            // in the survey
+  std::array<std::int64_t, 2> dims;  // of the other two
+};
+// Throws kInvalid for a plane that the volume does not have, what export_raw and section_plane throw.
+RawSection export_raw_section(const project::Project& project, const std::string& volume,
+                              const std::string& words, const std::filesystem::path& file, bool big_endian,
+                              const JobContext& job);
 // See formats::nrrd::write; nulls as NaN.
 void export_nrrd(const project::Project& project, const std::string& volume,
                  const std::filesystem::path& file, const formats::raw::AxisOrder& order,

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "engine/tasks/imported_surface.h"
+#include "engine/tasks/set_statistic.h"
 #include "engine/tasks/statistics.h"
 #include "engine/tasks/triangulate.h"
 #include "storage/base/error.h"
@@ -125,6 +126,14 @@ void turn_z_into(const std::string& unit, FaceTables& faces) {
   }
 }
 
+FaceTables tables_in(const std::optional<survey::Geometry>& survey) {
+  FaceTables out;
+  if (!survey) return out;
+  out.crs = survey->crs;
+  out.units = {survey->horizontal_unit, std::string(name_of(survey->vertical_unit))};
+  return out;
+}
+
 }  // namespace
 
 std::string face_id(std::int64_t panel, std::int32_t n) {
@@ -134,33 +143,65 @@ std::string face_id(std::int64_t panel, std::int32_t n) {
   return fmt::format("{}-{}.{}", panel >> kPillarBits, panel & ((std::int64_t{1} << kPillarBits) - 1), n);
 }
 
+std::optional<project::RunRecord> chosen_run(const project::Project& project, std::optional<std::int64_t> run,
+                                             const std::string& statistic) {
+  if (run) return project.run(run);
+  const std::vector<project::RunRecord> runs = project.runs();
+  const auto last = [&](const auto& wanted) -> std::optional<project::RunRecord> {
+    const auto found = std::find_if(runs.rbegin(), runs.rend(), wanted);
+    return found == runs.rend() ? std::nullopt : std::optional(*found);
+  };
+  const auto by_hand = [](const project::RunRecord& each) { return statistic_set_by_hand(each); };
+  if (!statistic.empty()) {
+    auto found = last([&](const project::RunRecord& each) { return by_hand(each) == statistic; });
+    if (found) return found;
+  }
+  auto computed = last([&](const project::RunRecord& each) { return by_hand(each).empty(); });
+  if (computed || runs.empty() || !statistic.empty()) return computed;
+  return runs.back();
+}
+
 FaceTables face_tables(const project::Project& project, const std::string& fault,
                        std::optional<std::int64_t> run, Coordinates coordinates, const std::string& z_unit) {
-  std::optional<survey::Geometry> survey = project.survey();
-  if (coordinates == Coordinates::kIndex) survey = required_survey(project, "index space");
-  FaceTables out;
-  if (survey) {
-    out.crs = survey->crs;
-    out.units = {survey->horizontal_unit, std::string(name_of(survey->vertical_unit))};
-  }
-  if (run || !project.runs().empty()) out.run = project.run(run);
-  const std::vector<std::int64_t> in_run =
-      out.run ? project.run_faults(out.run->id) : std::vector<std::int64_t>{};
+  std::optional<project::RunRecord> chosen = chosen_run(project, run);
+  if (!chosen) return present_faces(project, fault, coordinates, z_unit);
+  const survey::Geometry survey = required_survey(project, "index space");
+  FaceTables out = tables_in(survey);
+  out.run = std::move(chosen);
+  const std::vector<std::int64_t> in_run = project.run_faults(out.run->id);
   for (const project::FaultRecord& record : chosen_faults(project, fault)) {
-    if (out.run) {
-      if (std::find(in_run.begin(), in_run.end(), record.id) == in_run.end()) continue;
-      const project::FaultRun stored = project.fault_statistics(out.run->id, record.id);
-      if (stored.revision != record.revision) out.stale.push_back(record.name);
-      out.tables.push_back(of_run(project, record, stored, survey::Lattice(*survey), coordinates));
-    } else if (const auto mesh = project.mesh(record.id)) {
-      out.tables.push_back(of_mesh(
-          project, record, *mesh,
-          coordinates == Coordinates::kIndex ? std::optional<survey::Lattice>(*survey) : std::nullopt));
-      if (!survey) note_units(out, project, record);
-    }
+    if (std::find(in_run.begin(), in_run.end(), record.id) == in_run.end()) continue;
+    const project::FaultRun stored = project.fault_statistics(out.run->id, record.id);
+    if (stored.revision != record.revision) out.stale.push_back(record.name);
+    out.tables.push_back(of_run(project, record, stored, survey::Lattice(survey), coordinates));
   }
   if (coordinates == Coordinates::kWorld && !z_unit.empty()) turn_z_into(z_unit, out);
   return out;
+}
+
+FaceTables present_faces(const project::Project& project, const std::string& fault, Coordinates coordinates,
+                         const std::string& z_unit) {
+  std::optional<survey::Geometry> survey = project.survey();
+  if (coordinates == Coordinates::kIndex) survey = required_survey(project, "index space");
+  FaceTables out = tables_in(survey);
+  for (const project::FaultRecord& record : chosen_faults(project, fault)) {
+    const auto mesh = project.mesh(record.id);
+    if (!mesh) continue;
+    if (mesh->revision != record.revision) out.stale.push_back(record.name);
+    out.tables.push_back(
+        of_mesh(project, record, *mesh,
+                coordinates == Coordinates::kIndex ? std::optional<survey::Lattice>(*survey) : std::nullopt));
+    if (!survey) note_units(out, project, record);
+  }
+  if (coordinates == Coordinates::kWorld && !z_unit.empty()) turn_z_into(z_unit, out);
+  return out;
+}
+
+std::vector<double> counts_of(const formats::MeshTable& table) {
+  for (const formats::FaceStatistic& known : table.statistics) {
+    if (known.name == "count") return known.values;
+  }
+  return {};
 }
 
 const std::vector<double>& values_of(const formats::MeshTable& table, const std::string& statistic) {
@@ -178,9 +219,10 @@ std::vector<RankedFace> ranked_faces(const FaceTables& faces, const std::string&
   std::vector<RankedFace> ranked;
   for (std::size_t t = 0; t < faces.tables.size(); ++t) {
     const std::vector<double>& values = values_of(faces.tables[t], statistic);
-    const std::vector<double>& counts = values_of(faces.tables[t], "count");
+    const std::vector<double> counts = counts_of(faces.tables[t]);
     for (std::size_t f = 0; f < values.size(); ++f) {
-      if (counts[f] >= least_count && !std::isnan(values[f])) ranked.push_back({t, f, values[f]});
+      const bool enough = counts.empty() || counts[f] >= least_count;
+      if (enough && !std::isnan(values[f])) ranked.push_back({t, f, values[f]});
     }
   }
   std::stable_sort(ranked.begin(), ranked.end(), [&](const RankedFace& a, const RankedFace& b) {

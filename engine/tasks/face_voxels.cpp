@@ -98,7 +98,9 @@ FaceVoxelsRead read_face_voxels(const project::Project& project, const std::stri
                                 const std::function<void(const VoxelsOfFace&)>& visit,
                                 const JobContext& job) {
   FaceVoxelsRead read;
-  read.run = project.run(run).id;
+  const auto chosen = chosen_run(project, run);
+  if (!chosen) throw Error(ErrorCode::kNotFound, "the project has no run", "footwall extract makes one");
+  read.run = chosen->id;
   const std::vector<std::int64_t> in_run = project.run_faults(read.run);
   const std::vector<project::FaultRecord> faults = chosen_faults(project, fault);
   for (std::size_t n = 0; n < faults.size(); ++n) {

@@ -6,6 +6,8 @@
 
 #include "engine/mesh/surface_facts.h"
 #include "engine/tasks/open_volume.h"
+#include "engine/tasks/set_statistic.h"
+#include "engine/tasks/statistics.h"
 #include "engine/tasks/triangulate.h"
 #include "storage/base/error.h"
 #include "storage/formats/z_unit.h"
@@ -64,6 +66,7 @@ Json volume_json(const project::VolumeRecord& volume) {
           {"role", volume.role},
           {"high_is", high_is(volume)},
           {"source", volume.source},
+          {"null_value", volume.null_value ? Json(*volume.null_value) : Json()},
           {"bytes", volume.bytes},
           {"checksum", volume.checksum}};
 }
@@ -170,10 +173,21 @@ Json project_facts(const project::Project& project, bool verify, const JobContex
   facts["runs"] = Json::array();
   for (const project::RunRecord& run : project.runs()) {
     facts["runs"].push_back(
-        {{"run", run.id}, {"name", run.name}, {"volume", run.volume}, {"when", run.when}});
+        {{"run", run.id},
+         {"name", run.name},
+         {"volume", run.volume.empty() ? Json() : Json(run.volume)},
+         {"set_by_hand", statistic_set_by_hand(run).empty() ? Json() : Json(statistic_set_by_hand(run))},
+         {"when", run.when}});
     const Json result = Json::parse(run.result, nullptr, false);
     facts["runs"].back()["faults"] =
         result.is_object() ? result.value("faults", Json::array()) : Json::array();
+  }
+  facts["statistics"] = Json::array();
+  for (const project::StatisticRecord& statistic : known_statistics(project)) {
+    facts["statistics"].push_back({{"name", statistic.name},
+                                   {"unit", unit_of(statistic)},
+                                   {"colours", statistic.colour_map},
+                                   {"description", statistic.description}});
   }
   facts["missing"] = Json::array();
   for (const project::MissingFile& file : project.missing()) {

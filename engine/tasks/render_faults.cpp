@@ -10,6 +10,7 @@
 #include "engine/tasks/face_tables.h"
 #include "engine/tasks/open_volume.h"
 #include "engine/tasks/render_camera.h"
+#include "engine/tasks/section_plane.h"
 #include "engine/tasks/statistics.h"
 #include "engine/tasks/triangulate.h"
 #include "engine/tasks/visible.h"
@@ -22,59 +23,8 @@
 namespace footwall::tasks {
 namespace {
 
-// A plane of the survey, by the words of --section.
-struct Plane {
-  int axis = 0;
-  std::int64_t index = 0;
-};
-
-Plane plane_of(const std::string& words, const survey::Geometry& survey) {
-  const auto equals = words.find('=');
-  const std::string axis = words.substr(0, equals);
-  const std::string at = equals == std::string::npos ? "" : words.substr(equals + 1);
-  const auto wrong = [&] {
-    return Error(ErrorCode::kUsage, fmt::format("'{}' is not a section", words),
-                 "write inline=N, crossline=N or z=VALUE; first, middle and last are numbers too");
-  };
-  Plane plane;
-  if (axis == "inline")
-    plane.axis = 0;
-  else if (axis == "crossline")
-    plane.axis = 1;
-  else if (axis == "z")
-    plane.axis = 2;
-  else
-    throw wrong();
-
-  const std::int64_t count = survey.dims()[static_cast<std::size_t>(plane.axis)];
-  if (at == "first") return plane;
-  if (at == "middle" || at == "last") {
-    plane.index = at == "last" ? count - 1 : count / 2;
-    return plane;
-  }
-  const auto number = text::number(at);
-  if (!number) throw wrong();
-  std::string range;
-  if (plane.axis == 2) {
-    plane.index = static_cast<std::int64_t>(std::nearbyint((*number - survey.z0) / survey.interval));
-    range =
-        fmt::format("{} to {} {}", survey.z0, survey.z0 + survey.interval * static_cast<double>(count - 1),
-                    name_of(survey.vertical_unit));
-  } else {
-    const survey::LineAxis& lines = plane.axis == 0 ? survey.inlines : survey.crosslines;
-    const auto line = static_cast<std::int64_t>(*number);
-    plane.index = static_cast<double>(line) == *number && line >= lines.first ? lines.index_of(line) : -1;
-    range = fmt::format("{} to {} by {}", lines.first, lines.last(), lines.step);
-  }
-  if (plane.index < 0 || plane.index >= count) {
-    throw Error(ErrorCode::kInvalid, fmt::format("the survey has no {}", words),
-                fmt::format("it has {} {}", axis, range));
-  }
-  return plane;
-}
-
 render::ShownSection section_of(const volume::VolumeReader& reader, const project::VolumeRecord& volume,
-                                const Plane& plane) {
+                                const SectionPlane& plane) {
   if (volume.origin != survey::Index{0, 0, 0}) {
     throw Error(
         ErrorCode::kUnsupported,
@@ -94,8 +44,8 @@ render::ShownSection section_of(const volume::VolumeReader& reader, const projec
 // A face without voxels has no colour, whatever its statistic's convention.
 std::vector<double> shown_values(const formats::MeshTable& table, const std::string& statistic) {
   std::vector<double> values = values_of(table, statistic);
-  const std::vector<double>& counts = values_of(table, "count");
-  for (std::size_t f = 0; f < values.size(); ++f) {
+  const std::vector<double> counts = counts_of(table);
+  for (std::size_t f = 0; f < counts.size(); ++f) {
     if (counts[f] == 0) values[f] = std::numeric_limits<double>::quiet_NaN();
   }
   return values;
@@ -123,7 +73,9 @@ std::string raised(std::string unit) {
 
 void add_faults(const project::Project& project, const RenderOptions& options, render::FaultPicture& picture,
                 Rendered& done) {
-  const FaceTables faces = face_tables(project, "", options.run, Coordinates::kWorld);
+  const auto run = chosen_run(project, options.run, options.statistic);
+  const FaceTables faces = run ? face_tables(project, "", run->id, Coordinates::kWorld)
+                               : present_faces(project, "", Coordinates::kWorld);
   std::size_t n = 0;
   for (const formats::MeshTable& table : faces.tables) {
     render::FaultMesh mesh;
@@ -145,7 +97,7 @@ void add_faults(const project::Project& project, const RenderOptions& options, r
   for (const std::string& name : faces.stale)
     done.notices.push_back(name + " was edited since its colours were computed");
 
-  const auto known = stored_statistics();
+  const auto known = known_statistics(project);
   const auto row =
       std::find_if(known.begin(), known.end(), [&](const auto& r) { return r.name == options.statistic; });
   if (row == known.end())
@@ -156,7 +108,11 @@ void add_faults(const project::Project& project, const RenderOptions& options, r
   picture.statistic.colours =
       &render::ColourMap::named(options.colours.empty() ? row->colour_map : options.colours);
   if (options.range) picture.statistic.range = render::Range{(*options.range)[0], (*options.range)[1]};
-  if (faces.run) picture.statistic.note = fmt::format("{}, volume {}", faces.run->name, faces.run->volume);
+  if (faces.run) {
+    picture.statistic.note = faces.run->volume.empty()
+                                 ? faces.run->name
+                                 : fmt::format("{}, volume {}", faces.run->name, faces.run->volume);
+  }
 }
 
 // Says of each isosurface that a budget ended.
@@ -200,7 +156,7 @@ Rendered render_faults(const project::Project& project, const RenderOptions& opt
     const project::VolumeRecord volume = project.volume(options.volume);
     const volume::VolumeReader reader = open_volume(project, volume);
     for (const std::string& words : options.sections) {
-      picture.sections.push_back(section_of(reader, volume, plane_of(words, picture.geometry)));
+      picture.sections.push_back(section_of(reader, volume, section_plane(words, picture.geometry)));
     }
     picture.section_style.title = volume.name;
   }

@@ -1,5 +1,6 @@
 #include "engine/tasks/statistics.h"
 
+#include <algorithm>
 #include <functional>
 
 namespace footwall::tasks {
@@ -77,6 +78,17 @@ std::vector<project::StatisticRecord> stored_statistics() {
     records.push_back(record);
   }
   return records;
+}
+
+std::vector<project::StatisticRecord> known_statistics(const project::Project& project) {
+  std::vector<project::StatisticRecord> known = stored_statistics();
+  const std::size_t own = known.size();
+  for (project::StatisticRecord& registered : project.statistics()) {
+    const auto end = known.begin() + static_cast<std::ptrdiff_t>(own);
+    if (std::none_of(known.begin(), end, [&](const auto& each) { return each.name == registered.name; }))
+      known.push_back(std::move(registered));
+  }
+  return known;
 }
 
 std::map<std::string, std::vector<double>> columns_of(const session::Part& part) {

@@ -14,6 +14,7 @@ void add_faults(console::Program& program);
 void add_edit(console::Program& program);
 void add_history(console::Program& program);  // undo, redo, history
 void add_interpolate(console::Program& program);
+void add_set_statistic(console::Program& program);
 void add_triangulate(console::Program& program);
 void add_extract(console::Program& program);
 void add_faces(console::Program& program);

@@ -17,7 +17,7 @@ struct Options {
 
 // Replies are printed as they come, so that a script which feeds line by line reads them line by line; with
 // --json they are gathered into the one object.
-console::Output run(const Options& options, bool json, const JobContext& job) {
+console::Output apply(const Options& options, bool json, const JobContext& job) {
   project::Project project = open_project(options.project, project::OpenMode::kWrite);
   console::Output output{{{"replies", console::Json::array()}}, ""};
   tasks::apply_edit_script(
@@ -29,6 +29,16 @@ console::Output run(const Options& options, bool json, const JobContext& job) {
       job);
   project.close();
   return output;
+}
+
+// The end that an edit came to is a reply, too.
+console::Output run(const Options& options, bool json, const JobContext& job) {
+  try {
+    return apply(options, json, job);
+  } catch (const Error& error) {
+    if (!json) std::cout << console::error_json(error).dump() << std::endl;
+    throw;
+  }
 }
 
 }  // namespace

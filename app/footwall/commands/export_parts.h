@@ -21,7 +21,7 @@ struct ExportChoice {
 };
 
 struct ExportVolumes {
-  std::string volume, raw, nrrd, segy, vti;
+  std::string volume, section, raw, nrrd, segy, vti;
   std::string axes, endian, holes = "skip";
   int segy_format = 5;
   std::optional<float> segy_null;

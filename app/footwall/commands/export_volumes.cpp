@@ -20,6 +20,8 @@ std::string order_text(const formats::raw::AxisOrder& order) {
 void ExportVolumes::add_to(CLI::App& command) {
   command.add_option("--volume", volume, "The volume to write (default: the first)");
   command.add_option("--raw", raw, "Samples as float32");
+  command.add_option("--section", section,
+                     "Raw: only this plane of the volume: inline=N, crossline=N or z=VALUE");
   command.add_option("--nrrd", nrrd, "Samples with their place in space, as NRRD (float32, raw)");
   command.add_option("--segy", segy, "SEG-Y, revision 1 where it can hold the volume, else 2.0");
   command.add_option("--vti", vti, "VTK XML ImageData for ParaView (z positive up)");
@@ -47,7 +49,14 @@ void ExportVolumes::run(const project::Project& project, const ExportChoice& cho
     const double from = static_cast<double>(started) / files;
     return console.job().part(from, static_cast<double>(++started) / files);
   };
-  if (!raw.empty()) {
+  if (!section.empty()) {
+    if (raw.empty() || !axes.empty())
+      throw Error(ErrorCode::kUsage, "--section goes with --raw, without --axes");
+    const tasks::RawSection done =
+        tasks::export_raw_section(project, volume, section, raw, endian == "big", next_part());
+    add_file(output, raw);
+    output.json["section"] = {{"axis", done.axis}, {"index", done.index}, {"dims", done.dims}};
+  } else if (!raw.empty()) {
     formats::raw::WriteOptions how;
     if (!axes.empty()) how.order = formats::raw::axis_order_from(axes);
     how.big_endian = endian == "big";

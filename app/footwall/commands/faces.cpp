@@ -9,16 +9,19 @@
 #include "app/footwall/commands/options.h"
 #include "engine/extract/face.h"
 #include "engine/tasks/face_tables.h"
+#include "engine/tasks/set_statistic.h"
 #include "storage/base/log.h"
+#include "storage/formats/face_arrays.h"
 #include "storage/formats/faces_csv.h"
 
 namespace footwall::commands {
 namespace {
 
 struct Options {
-  std::string project, fault, csv, coordinates = "world", lowest, highest;
+  std::string project, fault, csv, arrays, coordinates = "world", lowest, highest;
   std::optional<std::int64_t> run;
   std::size_t top = 10;
+  bool present = false;
 };
 
 console::Json ranked_json(const tasks::FaceTables& faces, const std::vector<tasks::RankedFace>& ranked) {
@@ -43,7 +46,19 @@ std::string default_ranking(const tasks::FaceTables& faces) {
         std::any_of(contrast->begin(), contrast->end(), [](double v) { return !std::isnan(v); }))
       return "contrast";
   }
-  return "discontinuity";
+  const std::string by_hand = tasks::statistic_set_by_hand(*faces.run);
+  return by_hand.empty() ? "discontinuity" : by_hand;
+}
+
+console::Json arrays_json(const std::string& file, const std::vector<formats::MeshTable>& tables) {
+  console::Json faults = console::Json::array();
+  for (const formats::MeshTable& table : tables) faults.push_back(table.fault);
+  console::Json layout = console::Json::array();
+  for (const formats::face_arrays::Array& array : formats::face_arrays::write(file, tables)) {
+    layout.push_back(
+        {{"name", array.name}, {"type", array.type}, {"shape", array.shape}, {"offset", array.offset}});
+  }
+  return {{"file", file}, {"faults", faults}, {"layout", layout}};
 }
 
 // The statistics over the distinct voxels of the faults; of runs that have them.
@@ -94,32 +109,61 @@ std::string ranked_text(const tasks::FaceTables& faces, const std::vector<tasks:
   return text;
 }
 
+void write_files(const std::vector<formats::MeshTable>& tables, const Options& options,
+                 console::Output& output) {
+  if (!options.csv.empty()) {
+    formats::faces_csv::write(options.csv, tables);
+    output.json["csv"] = options.csv;
+    output.text += "written to " + options.csv + "\n";
+  }
+  if (!options.arrays.empty()) {
+    output.json["arrays"] = arrays_json(options.arrays, tables);
+    output.text += "written to " + options.arrays + "\n";
+  }
+}
+
+// The meshes as they are now, with no run.
+console::Output present(const project::Project& project, const Options& options,
+                        tasks::Coordinates coordinates) {
+  if (options.run || !options.lowest.empty() || !options.highest.empty())
+    throw Error(ErrorCode::kUsage, "--present has no statistics", "leave --run, --lowest and --highest out");
+  const tasks::FaceTables faces = tasks::present_faces(project, options.fault, coordinates);
+  for (const std::string& name : faces.stale) log::warn(name + " was edited since its mesh was made");
+  std::size_t count = 0;
+  for (const formats::MeshTable& table : faces.tables) count += table.triangles.size();
+  console::Output output;
+  output.json = {{"run", nullptr}, {"volume", nullptr}, {"count", count}, {"stale", faces.stale}};
+  output.text = fmt::format("{} faces\n", count);
+  write_files(faces.tables, options, output);
+  return output;
+}
+
 console::Output run(const Options& options) {
   const project::Project project = open_project(options.project, project::OpenMode::kRead);
   const auto coordinates =
       options.coordinates == "index" ? tasks::Coordinates::kIndex : tasks::Coordinates::kWorld;
-  const tasks::FaceTables faces = tasks::face_tables(project, options.fault, options.run, coordinates);
-  if (!faces.run)
-    throw Error(ErrorCode::kNotFound, "the project has no run yet", "footwall extract makes one");
+  if (options.present) return present(project, options, coordinates);
+  const bool lowest = !options.lowest.empty() || options.highest.empty();
+  const std::string& asked = lowest ? options.lowest : options.highest;
+  const auto chosen = tasks::chosen_run(project, options.run, asked);
+  if (!chosen) throw Error(ErrorCode::kNotFound, "the project has no run yet", "footwall extract makes one");
+  const tasks::FaceTables faces = tasks::face_tables(project, options.fault, chosen->id, coordinates);
   for (const std::string& name : faces.stale) log::warn(name + " was edited since this run");
   std::size_t count = 0;
   for (const formats::MeshTable& table : faces.tables) count += table.triangles.size();
 
   console::Output output;
-  output.json = {
-      {"run", faces.run->id}, {"volume", faces.run->volume}, {"count", count}, {"stale", faces.stale}};
+  output.json = {{"run", faces.run->id},
+                 {"volume", faces.run->volume.empty() ? console::Json() : console::Json(faces.run->volume)},
+                 {"count", count},
+                 {"stale", faces.stale}};
   output.json["faults"] = fault_rows(faces, options.fault);
-  output.text = fmt::format("run {}: {} faces of volume {}\n", faces.run->id, count, faces.run->volume);
+  const std::string of = faces.run->volume.empty() ? ", set by hand" : " of volume " + faces.run->volume;
+  output.text = fmt::format("run {}: {} faces{}\n", faces.run->id, count, of);
   output.text += faults_text(output.json["faults"]);
-  if (!options.csv.empty()) {
-    formats::faces_csv::write(options.csv, faces.tables);
-    output.json["csv"] = options.csv;
-    output.text += "written to " + options.csv + "\n";
-  }
-  const bool lowest = !options.lowest.empty() || options.highest.empty();
-  const std::string& asked = lowest ? options.lowest : options.highest;
+  write_files(faces.tables, options, output);
   std::string statistic = asked;
-  if (statistic.empty() && options.csv.empty()) statistic = default_ranking(faces);
+  if (statistic.empty() && options.csv.empty() && options.arrays.empty()) statistic = default_ranking(faces);
   if (!statistic.empty()) {
     const auto ranked = tasks::ranked_faces(faces, statistic, lowest, options.top);
     output.json["faces"] = ranked_json(faces, ranked);
@@ -147,6 +191,9 @@ void add_faces(console::Program& program) {
   command->add_option("--fault", options->fault, "Only this fault (default: all)");
   command->add_option("--run", options->run, "The run's number (default: the last)");
   command->add_option("--csv", options->csv, "Write all faces to this file");
+  command->add_option("--arrays", options->arrays,
+                      "Write all faces to this file as plain arrays, which --json describes");
+  command->add_flag("--present", options->present, "The present meshes, without statistics");
   command
       ->add_option("--coordinates", options->coordinates,
                    "world: as picked; index: the rounded positions that were computed on, in voxels")

@@ -68,9 +68,10 @@ std::string facts_text(const console::Json& facts) {
                         surface["faces"].get<std::int64_t>());
   }
   for (const console::Json& run : facts["runs"]) {
-    text += fmt::format("run {}: {}, volume {}, {}\n", run["run"].get<std::int64_t>(),
-                        run["name"].get<std::string>(), run["volume"].get<std::string>(),
-                        run["when"].get<std::string>());
+    const std::string of =
+        run["volume"].is_null() ? "set by hand" : "volume " + run["volume"].get<std::string>();
+    text += fmt::format("run {}: {}, {}, {}\n", run["run"].get<std::int64_t>(),
+                        run["name"].get<std::string>(), of, run["when"].get<std::string>());
   }
   for (const console::Json& file : facts["missing"]) {
     text += fmt::format("missing: volume {} ({}: {}); footwall relink mends it\n",

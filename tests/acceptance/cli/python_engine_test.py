@@ -1,0 +1,146 @@
+"""The Python package with an engine of its own: the same numbers as the command line's, and nothing left behind."""
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from support import BIN, FootwallTest
+
+PACKAGE = BIN.parent / "python"
+sys.path.insert(0, str(PACKAGE))
+os.environ["FOOTWALL_PROGRAM"] = str(BIN / "footwall")
+
+import numpy  # noqa: E402
+
+import footwall  # noqa: E402
+
+SAME = ("count", "nulls", "outside", "mean", "variance", "min", "max", "discontinuity", "contrast")
+
+
+def alive(process):
+    """Whether it still runs; one that has ended and waits for its parent to look does not."""
+    try:
+        return pathlib.Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()[0] != "Z"
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+
+
+def wait_until(done, seconds=20):
+    deadline = time.monotonic() + seconds
+    while not done():
+        if time.monotonic() > deadline:
+            return False
+        time.sleep(0.05)
+    return True
+
+
+class PythonEngine(FootwallTest):
+    def setUp(self):
+        super().setUp()
+        self.project = footwall.open(self.path(self.synthetic()))
+        self.project.triangulate()
+
+    def started(self, **how):
+        engine = footwall.Engine.start(self.project, ranks=2, **how)
+        self.addCleanup(engine.close)
+        return engine
+
+    def test_numbers_are_those_of_the_command_line(self):
+        self.project.extract()
+        told = self.project.statistics()
+        engine = self.started()
+        self.assertEqual(engine.status().ranks, 2)
+        numbers = engine.extract()
+        row = {name: n for n, name in enumerate(zip(numbers.faults.tolist(), numbers.ids.tolist()))}
+        order = [row[engine.fault_number(fault), face] for fault, face in zip(told.fault.tolist(), told.ids.tolist())]
+        self.assertEqual(len(order), len(numbers))
+        for name in SAME:
+            numpy.testing.assert_array_equal(numbers[name][order].astype(float), told.values[name], name)
+        # Nothing changed since: nothing to do.
+        self.assertEqual(len(engine.extract(changed_only=True)), 0)
+
+    def test_voxels_and_sections_are_the_volume(self):
+        self.footwall("export", self.project.path, "--raw", "whole")
+        whole = numpy.fromfile(self.path("whole"), "<f4").reshape(self.project.survey.shape)
+        engine = self.started()
+        numbers = engine.extract(compute=["count", "mean"])
+        face = int(numpy.argmax(numbers["count"]))
+        indices, values = engine.voxels((int(numbers.faults[face]), str(numbers.ids[face])))
+        self.assertEqual(len(values), numbers["count"][face])
+        numpy.testing.assert_array_equal(values, whole[tuple(indices.T)])
+        self.assertAlmostEqual(values.astype(float).mean(), numbers["mean"][face], places=9)
+        numpy.testing.assert_array_equal(engine.section(inline="last"), whole[-1])
+        numpy.testing.assert_array_equal(engine.section(sample=5), whole[:, :, 5])
+        numpy.testing.assert_array_equal(engine.box(None, (3, 4, 5), (9, 9, 9)), whole[3:9, 4:9, 5:9])
+
+    def test_live_numbers_are_those_of_a_whole_extraction(self):
+        engine = self.started()
+        fault = str(self.project.faults()["name"][0])
+        with engine.live(compute=["count", "mean", "variance"]) as live:
+            mesh = live.mesh(fault)
+            vertex = int(mesh.triangles[len(mesh.triangles) // 2, 0])
+            before = mesh.vertices[vertex].copy()
+            for step in range(20):  # as a hand drags
+                last = live.move(fault, vertex, before + [0.1 * step, 0, 0])
+            answer = live.wait(last)
+            touched = mesh.faces[(mesh.triangles == vertex).any(axis=1)]
+        self.assertEqual(answer.edit, last)
+        self.assertEqual(sorted(answer.ids.tolist()), sorted(touched.ids.tolist()))
+        whole = engine.extract(compute=["count", "mean", "variance"])
+        row = {name: n for n, name in enumerate(zip(whole.faults.tolist(), whole.ids.tolist()))}
+        order = [row[name] for name in zip(answer.faults.tolist(), answer.ids.tolist())]
+        for name in ("count", "mean", "variance"):
+            numpy.testing.assert_array_equal(answer[name], whole[name][order], name)
+        # Back to what the project has.
+        engine.load_model(fault)
+        held = engine.model(fault)
+        self.assertTrue((held.corners == before).all(axis=2).any())
+
+    def test_isosurfaces_and_pictures(self):
+        engine = self.started()
+        told = self.footwall("isosurface", self.project.path, "--value", "0.5")
+        vertices, normals, triangles = engine.isosurface(0.5)
+        self.assertEqual((len(vertices), len(triangles)), (told["vertices"], told["triangles"]))
+        numpy.testing.assert_allclose(numpy.linalg.norm(normals, axis=1), 1, atol=1e-3)
+        camera = footwall.Camera(azimuth=40, elevation=30)
+        rgba, depth = engine.render(camera, [(None, 0.5, (200, 160, 60))], (960, 720))
+        view = camera.view(self.project.survey, 960, 720)
+        clip = numpy.c_[view.scene.of_index(vertices), numpy.ones(len(vertices))] @ view.matrix.T
+        at = clip[:, :3] / clip[:, 3:]
+        column = numpy.floor((at[:, 0] + 1) / 2 * 960).astype(int)
+        row = numpy.floor((1 - at[:, 1]) / 2 * 720).astype(int)
+        inside = (column >= 2) & (column < 958) & (row >= 2) & (row < 718)
+        self.assertGreater(inside.mean(), 0.99)
+        # Nothing lies before what is seen, of the pixels around it: at an edge its own pixel may be empty, and a
+        # sliver seen from its side may have none.
+        windows = numpy.lib.stride_tricks.sliding_window_view(numpy.pad(depth, 1, constant_values=1), (3, 3))
+        nearest = windows.min(axis=(2, 3))[row[inside], column[inside]]
+        behind = (at[inside, 2] + 1) / 2 - nearest
+        self.assertGreater((behind > -1e-3).mean(), 0.99, "vertices lie before the picture")
+        self.assertGreater((numpy.abs(behind) < 5e-3).mean(), 0.05, "no vertex is seen")
+        numpy.testing.assert_array_equal(depth < 1, rgba[..., 3] > 0)
+        again = engine.render(camera, [(None, 0.5, (200, 160, 60))], (960, 720), visible=True)
+        numpy.testing.assert_array_equal(again[0], rgba)
+        numpy.testing.assert_array_equal(again[1], depth)
+
+    def test_an_engine_ends_with_its_script(self):
+        """Also where the script had no time to end it."""
+        for how in ("sys.exit()", "os.kill(os.getpid(), signal.SIGKILL)"):
+            script = ("import os, signal, sys, footwall\n"
+                      f"e = footwall.Engine.start({str(self.project.path)!r}, ranks=2)\n"
+                      "s = e.status()\n"
+                      "print(e._served._process.pid, s.process, *[r.process for r in s.each_rank], flush=True)\n" + how)
+            environment = {**os.environ, "PYTHONPATH": str(PACKAGE)}
+            done = subprocess.run([sys.executable, "-B", "-c", script], env=environment, capture_output=True, text=True,
+                                  timeout=120)
+            self.assertIn(done.returncode, (0, -signal.SIGKILL), done.stderr)
+            processes = set(map(int, done.stdout.split()))
+            self.assertGreaterEqual(len(processes), 2)
+            self.assertTrue(wait_until(lambda: not any(map(alive, processes))), f"{how}: {processes} are left")
+
+
+if __name__ == "__main__":
+    unittest.main()
