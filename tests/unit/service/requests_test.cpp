@@ -55,6 +55,7 @@ TEST(Live, EditsThatComeMeanwhileAreOneStepUnderTheNewestNumber) {
   v1::LiveReply reply;
   while (live->Read(&reply)) answered.push_back(reply.edit());
   EXPECT_TRUE(live->Finish().ok());
+  const std::scoped_lock lock(steps.mutex);
   // Every edit is in one step, in order; every step is answered under its newest.
   std::vector<std::uint64_t> all;
   std::vector<std::uint64_t> newest;
@@ -87,6 +88,7 @@ TEST(Live, GoesOnAfterAPause) {
   }
   ASSERT_TRUE(live->WritesDone());
   EXPECT_TRUE(live->Finish().ok());
+  const std::scoped_lock lock(steps.mutex);
   EXPECT_EQ(steps.steps.size(), 5U);
 }
 

@@ -141,6 +141,7 @@ TEST(Server, CommandsGoToTheRanksAndTheirAnswersBack) {
   EXPECT_TRUE(ends_well(&v1::Engine::Stub::ReadBox, v1::ReadBoxRequest()));
   EXPECT_TRUE(ends_well(&v1::Engine::Stub::Isosurface, v1::IsosurfaceRequest()));
   EXPECT_TRUE(ends_well(&v1::Engine::Stub::Render, v1::RenderRequest()));
+  const std::scoped_lock lock(answers.mutex);
   ASSERT_EQ(answers.commands.size(), 9U);
   EXPECT_EQ(answers.commands[0].open_volume().volume().checksum(), "abc");
   EXPECT_TRUE(answers.commands[1].edit_model().edits(0).clear());
