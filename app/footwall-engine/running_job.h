@@ -9,8 +9,8 @@
 
 namespace footwall::app {
 
-// From now on SIGINT, SIGTERM, SIGUSR1 and SIGUSR2 do not end the program, but cancel its job, also one that has not
-// begun. Call it before MPI_Init, which takes a while.
+// From now on SIGINT, SIGTERM, SIGUSR1 and SIGUSR2 do not end the program, but cancel its job, also one that
+// has not begun. Call it before MPI_Init, which takes a while.
 void heed_signals();
 
 // The job, which signals cancel from now on. On rank 0 it prints its progress on standard error, as JSON

@@ -35,6 +35,14 @@ std::span<const Computation> computations() {
   return kComputations;
 }
 
+std::vector<std::string> usual_computations() {
+  std::vector<std::string> names;
+  for (const Computation& row : kComputations) {
+    if (row.by_default || row.name == "contrast") names.emplace_back(row.name);
+  }
+  return names;
+}
+
 const Computation& computation(std::string_view name) {
   find_row(statistic_rows(), "statistic", name);
   return *std::find_if(kComputations.begin(), kComputations.end(),

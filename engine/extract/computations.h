@@ -16,8 +16,8 @@ struct Computation {
   std::string_view help;
   std::string_view unit_rule;  // "1", "amplitude", "amplitude^2", "bytes": see tasks/statistics.h
   bool built;
-  bool by_default;  // computed where Options::compute is empty; `extract` adds contrast
-                    // (tasks/job_of_project.h)
+  bool by_default;  // computed where Options::compute is empty; usual_computations()
+                    // (registry.h) adds contrast
   int halo;         // traces around a voxel that it looks at: 0 or 1
   // Null for one that folds. Throws kUsage for options that it cannot work with.
   std::unique_ptr<WholeFace> (*make)(const Options& options);

@@ -148,6 +148,7 @@ extract::Options options_from(const v1::ExtractOptions& message, int threads) {
   if (!message.balance().empty()) options.balance = message.balance();
   if (!message.voxelizer().empty()) options.voxelizer = message.voxelizer();
   options.compute = {message.compute().begin(), message.compute().end()};
+  if (options.compute.empty()) options.compute = extract::usual_computations();
   options.threads = threads;
   extract::validate(options);
   return options;

@@ -90,11 +90,10 @@ volume::WriteOptions options_of(const volume::VolumeInfo& info, const AttributeJ
   options.high_is_fault = true;
   const std::string file = job.volume_file.empty() ? job.volume.filename().string() : job.volume_file;
   options.source = "discontinuity of " + file;
-  const Json provenance{
-      {"attribute", "discontinuity"},
-      {"window", extract::text_of(job.window)},
-      {"of", {{"file", file}, {"checksum", to_hex(info.checksum)}}},
-      {"high_is", "fault"}};
+  const Json provenance{{"attribute", "discontinuity"},
+                        {"window", extract::text_of(job.window)},
+                        {"of", {{"file", file}, {"checksum", to_hex(info.checksum)}}},
+                        {"high_is", "fault"}};
   options.provenance_json = provenance.dump(-1, ' ', false, Json::error_handler_t::replace);
   return options;
 }

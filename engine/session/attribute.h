@@ -12,8 +12,8 @@
 
 namespace footwall::session {
 
-// On disk as JSON: {footwall_attribute: 1, kind: "discontinuity", window: "3x3x9", volume, output, result}, and
-// volume_file where it is not empty.
+// On disk as JSON: {footwall_attribute: 1, kind: "discontinuity", window: "3x3x9", volume, output, result},
+// and volume_file where it is not empty.
 struct AttributeJob {
   std::filesystem::path volume;  // absolute, like the others
   std::filesystem::path output;  // the new volume file; takes its name when it is whole

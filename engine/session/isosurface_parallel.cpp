@@ -272,12 +272,13 @@ void Run::write() {
   if (!job_.world) share.positions = floats(positions);
   share.normals = floats(normals);
   share.triangles = {reinterpret_cast<const std::uint32_t*>(triangles.data()), triangles.size() * 3};
-  Json description{
-      {"isosurface", {{"value", job_.value}, {"capped", job_.cap}}},
-      {"volume", {{"file", job_.volume_file.empty() ? job_.volume.filename().string() : job_.volume_file}, {"checksum", to_hex(samples_.info().checksum)}}},
-      {"coordinates", job_.world ? "world" : "index"},
-      {"z_positive", "down"},
-      {"normals", "to lower values"}};
+  Json description{{"isosurface", {{"value", job_.value}, {"capped", job_.cap}}},
+                   {"volume",
+                    {{"file", job_.volume_file.empty() ? job_.volume.filename().string() : job_.volume_file},
+                     {"checksum", to_hex(samples_.info().checksum)}}},
+                   {"coordinates", job_.world ? "world" : "index"},
+                   {"z_positive", "down"},
+                   {"normals", "to lower values"}};
   if (job_.visible) description["isosurface"]["only_visible"] = true;
   // The writer throws on all ranks or on none.
   world_.collectively([&] {

@@ -47,8 +47,8 @@ EngineCommand engine_command(const LaunchOptions& options, const std::vector<std
 // "was killed by signal 9 (Killed)", "ended with exit status 1": of a status as waitpid() gives it.
 std::string how_it_ended(int status);
 
-// The job's ranks were told to make room (SIGTERM or SIGUSR1 from a batch system): what is done is kept, and the next
-// run goes on from there. Its code is kCancelled.
+// The job's ranks were told to make room (SIGTERM or SIGUSR1 from a batch system): what is done is kept, and
+// the next run goes on from there. Its code is kCancelled.
 class Preempted : public Error {
  public:
   explicit Preempted(const Error& error) : Error(error) {}

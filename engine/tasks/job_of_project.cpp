@@ -1,6 +1,5 @@
 #include "engine/tasks/job_of_project.h"
 
-#include "engine/extract/computations.h"
 #include "engine/extract/registry.h"
 #include "engine/tasks/open_volume.h"
 #include "engine/tasks/triangulate.h"
@@ -9,20 +8,12 @@
 
 namespace footwall::tasks {
 
-std::vector<std::string> default_statistics() {
-  std::vector<std::string> names;
-  for (const extract::Computation& row : extract::computations()) {
-    if (row.by_default || row.name == "contrast") names.emplace_back(row.name);
-  }
-  return names;
-}
-
 JobOfProject job_of_project(project::Project& project, const ExtractOptions& options, FreshMeshes meshes,
                             const JobContext& context) {
   JobOfProject made;
   session::Job& job = made.job;
   job.options = options.engine;
-  if (job.options.compute.empty()) job.options.compute = default_statistics();
+  if (job.options.compute.empty()) job.options.compute = extract::usual_computations();
   job.options.threads = options.launch.threads > 0 ? options.launch.threads : session::default_threads();
   extract::validate(job.options);
   if (!options.name.empty()) project::check_name("run", options.name);

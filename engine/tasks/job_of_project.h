@@ -22,10 +22,6 @@ struct ExtractOptions {
   std::optional<double> velocity;  // m/s, for metres in a time survey
 };
 
-// What is computed where ExtractOptions::engine names nothing: all that fold, but for `offset`, which costs
-// 17 times what a face does (contrast: three times).
-std::vector<std::string> default_statistics();
-
 struct JobOfProject {
   session::Job job;                       // volume absolute; output still empty
   std::vector<std::string> triangulated;  // faults whose mesh was made first

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "engine/extract/extract.h"
+#include "engine/extract/registry.h"
 #include "engine/mesh/operation.h"
 #include "engine/service/wire.h"
 #include "mpi/extract/same_bits.h"
@@ -29,7 +30,8 @@ class ResidentEngine : public ResidentCase {
 
 // What a full extraction on one rank gives.
 Numbers expected(const std::filesystem::path& path, const std::map<FaceIdentity, Face>& model,
-                 const extract::Options& options = {}) {
+                 extract::Options options = {}) {
+  if (options.compute.empty()) options.compute = extract::usual_computations();
   const comm::Communicator alone(MPI_COMM_SELF);
   const volume::VolumeReader reader(path);
   std::vector<Face> faces;
