@@ -10,7 +10,8 @@ import subprocess
 import time
 import unittest
 
-from jobs_test import AS_ROOT, children, is_rank
+from jobs_test import AS_ROOT
+from processes import go_on, is_rank, stopped_ranks
 from support import BIN, FootwallTest
 
 HERE, THERE = f"fw{os.getpid()}a", f"fw{os.getpid()}b"
@@ -107,15 +108,10 @@ exec {inside.format(HERE)} mpirun --mca plm_rsh_agent {shlex.quote(self.path('ag
         program = subprocess.Popen([str(BIN / "footwall"), "batch", "job/JOB.json", "--ranks", "2", "--json"], text=True,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=self.folder,
                                    env={**os.environ, **self.two_hosts})
-        ranks = []
-        while len(ranks) < 2 and program.poll() is None:
-            ranks = [process for process in children(program.pid) if is_rank(process)]
-        for rank in ranks:
-            os.kill(rank, signal.SIGSTOP)
+        ranks = stopped_ranks(program, 2)
         self.assertIsNone(program.poll(), "it ended before it could be told")
         program.send_signal(signal.SIGUSR1)
-        for rank in ranks:
-            os.kill(rank, signal.SIGCONT)
+        go_on(ranks)
         told = time.monotonic()
         answer, words = program.communicate(timeout=120)
         self.assertEqual(program.returncode, 75, answer + words)

@@ -9,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from processes import HeldRuns, children, go_on, is_rank
+from processes import HeldRuns, go_on, stopped_ranks
 from support import BIN, SOURCE
 
 MPIRUN = ["mpirun", "--bind-to", "none", "--oversubscribe", "-n"]
@@ -255,15 +255,10 @@ exec mpirun --bind-to none --oversubscribe -n 2 "$@"
         script = subprocess.Popen(["bash", "job.sbatch"], cwd=self.folder / "job", text=True, stderr=subprocess.PIPE, env={
             **os.environ, **AS_ROOT, "PATH": f"{self.folder / 'bin'}:{os.environ['PATH']}", "SLURM_JOB_ID": "7",
             "SLURM_NTASKS": "2", "FOOTWALL_ENGINE": str(BIN / "footwall-engine")})
-        ranks = []
-        while len(ranks) < 2 and script.poll() is None:
-            ranks = [process for process in children(script.pid) if is_rank(process)]
-        for rank in ranks:
-            os.kill(rank, signal.SIGSTOP)
+        ranks = stopped_ranks(script, 2)
         self.assertIsNone(script.poll(), "it ended before it could be told")
         script.send_signal(signal.SIGUSR1)
-        for rank in ranks:
-            os.kill(rank, signal.SIGCONT)
+        go_on(ranks)
         _, words = script.communicate(timeout=120)
         self.assertEqual(script.returncode, 75, words)
         self.assertEqual((self.folder / "requeued").read_text(), "requeue 7\n")

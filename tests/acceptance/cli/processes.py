@@ -32,6 +32,18 @@ def is_rank(process):
     return bool(int(caught, 16) >> (signal.SIGTERM - 1) & 1)
 
 
+def stopped_ranks(program, count, once=lambda: True):
+    """The ranks below a run, found and, once something is so, stopped, so that it cannot end by itself; fewer where it ended
+    before."""
+    ranks = []
+    while (len(ranks) < count or not once()) and program.poll() is None:
+        if len(ranks) < count:
+            ranks = [process for process in children(program.pid) if is_rank(process)]
+    for rank in ranks:
+        os.kill(rank, signal.SIGSTOP)
+    return ranks
+
+
 def go_on(processes):
     for process in processes:
         try:
@@ -51,12 +63,7 @@ class HeldRuns(FootwallTest):
         program = subprocess.Popen([str(BIN / "footwall"), *arguments, "--ranks", str(ranks)], stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, text=True, cwd=self.folder,
                                    env={**os.environ, "TMPDIR": self.path("tmp")})
-        found = []
-        while (len(found) < ranks or not once()) and program.poll() is None:
-            if len(found) < ranks:
-                found = [process for process in children(program.pid) if is_rank(process)]
-        for rank in found:
-            os.kill(rank, signal.SIGSTOP)
+        found = stopped_ranks(program, ranks, once)
         self.assertIsNone(program.poll(), "it ended before it could be stopped")
         return program, children(program.pid), found
 
