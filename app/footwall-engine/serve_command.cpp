@@ -13,13 +13,14 @@
 #include "app/footwall-engine/running_job.h"
 #include "engine/service/server/private_folder.h"
 #include "engine/service/server/server.h"
+#include "engine/service/words_on_the_wire.h"
 #include "storage/base/partial_file.h"
 #include "storage/base/text.h"
 
 namespace footwall::app {
 namespace {
 
-constexpr const char* kTokenVariable = "FOOTWALL_ENGINE_TOKEN";
+using service::kTokenVariable;
 constexpr std::size_t kLongestToken = 4096;
 
 // Overwritten where it stood, too: the system shows a process's first environment.

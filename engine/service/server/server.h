@@ -14,10 +14,6 @@
 
 namespace footwall::service {
 
-// The name that certificates are made for, beside localhost: what clients take for the engine's, whatever
-// host it runs on.
-inline constexpr const char* kServerName = "footwall-engine";
-
 // What strangers and slow clients may use up.
 struct ServerLimits {
   std::size_t connections = 256;

@@ -10,6 +10,7 @@
 #include "engine/service/engine.grpc.pb.h"
 #include "engine/service/ranks.pb.h"
 #include "engine/service/server/server.h"
+#include "engine/service/words_on_the_wire.h"
 #include "scratch_folder.h"
 
 namespace footwall::service {
@@ -103,7 +104,7 @@ struct EngineAtWork {
     const std::string address = server->address();
     if (address.starts_with("unix:"))
       return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
-    arguments.SetSslTargetNameOverride(kServerName);
+    arguments.SetSslTargetNameOverride(kCertificateName);
     grpc::SslCredentialsOptions options;
     options.pem_root_certs = server->certificate();
     return grpc::CreateCustomChannel(address.substr(4), grpc::SslCredentials(options), arguments);

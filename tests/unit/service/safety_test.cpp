@@ -294,7 +294,7 @@ TEST(ServerSafety, TcpHasTlsWithTheEnginesCertificate) {
   grpc::SslCredentialsOptions options;
   options.pem_root_certs = engine_certificate(other / "c").certificate;
   grpc::ChannelArguments arguments;
-  arguments.SetSslTargetNameOverride(kServerName);
+  arguments.SetSslTargetNameOverride(kCertificateName);
   const auto wrong = grpc::CreateCustomChannel(address.substr(4), grpc::SslCredentials(options), arguments);
   Context deceived;
   EXPECT_EQ(v1::Engine::NewStub(wrong)->CloseVolume(&deceived, {}, &reply).error_code(),

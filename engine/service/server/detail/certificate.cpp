@@ -17,7 +17,7 @@
 #include <memory>
 
 #include "engine/service/server/private_folder.h"
-#include "engine/service/server/server.h"
+#include "engine/service/words_on_the_wire.h"
 #include "storage/base/error.h"
 #include "storage/base/partial_file.h"
 
@@ -87,13 +87,13 @@ X509Certificate self_signed(EVP_PKEY& key) {
        "date a certificate");
   X509_NAME* name = X509_get_subject_name(certificate.get());
   need(X509_NAME_add_entry_by_txt(name, "CN", MBSTRING_ASC,
-                                  reinterpret_cast<const unsigned char*>(kServerName), -1, -1, 0) == 1,
+                                  reinterpret_cast<const unsigned char*>(kCertificateName), -1, -1, 0) == 1,
        "name a certificate");
   need(X509_set_issuer_name(certificate.get(), name) == 1, "name a certificate");
   need(X509_set_pubkey(certificate.get(), &key) == 1, "make a certificate");
   add_extension(*certificate, NID_basic_constraints, "critical,CA:TRUE");
   add_extension(*certificate, NID_subject_alt_name,
-                fmt::format("DNS:{},DNS:localhost,IP:127.0.0.1,IP:::1", kServerName));
+                fmt::format("DNS:{},DNS:localhost,IP:127.0.0.1,IP:::1", kCertificateName));
   need(X509_sign(certificate.get(), &key, EVP_sha256()) > 0, "sign a certificate");
   return certificate;
 }

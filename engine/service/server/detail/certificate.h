@@ -12,7 +12,7 @@ struct Certificate {
 };
 
 // What stands in folder/key.pem and folder/certificate.pem; made where neither is there, or where it expires
-// within 30 days: ECDSA on P-256, ten years, for kServerName (server.h). The folder is made private, the
+// within 30 days: ECDSA on P-256, ten years, for kCertificateName. The folder is made private, the
 // files have mode 0600. Throws Error kIo, kCorrupt (the two do not belong together), kUsage (the folder is
 // not private), kInternal.
 Certificate engine_certificate(const std::filesystem::path& folder);

@@ -4,6 +4,7 @@
 
 #include "engine/service/server/requests/failure.h"
 #include "engine/service/server/requests/methods.h"
+#include "engine/service/words_on_the_wire.h"
 
 namespace footwall::service {
 
@@ -14,7 +15,7 @@ Door::Door(const std::string& token, const ServerLimits& limits, std::shared_ptr
       refusals_(limits.failures_burst, limits.failures_per_second) {}
 
 bool Door::has_token(const grpc::CallbackServerContext& context) const {
-  const auto [first, last] = context.client_metadata().equal_range("footwall-token");
+  const auto [first, last] = context.client_metadata().equal_range(kTokenMetadata);
   // Hashing is done for none, too: its time tells nothing.
   const bool is_one = first != last && std::next(first) == last;
   const std::string_view offered =

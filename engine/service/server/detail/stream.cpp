@@ -6,6 +6,7 @@
 #include <grpcpp/support/proto_buffer_writer.h>
 
 #include "engine/service/server/requests/failure.h"
+#include "engine/service/words_on_the_wire.h"
 
 namespace footwall::service {
 namespace {
@@ -173,7 +174,7 @@ void Stream::end(const std::optional<Error>& failure) noexcept {
     if (end_) return;
     if (failure) {
       const v1::Failure told = failure_of(*failure);
-      if (context_ != nullptr) context_->AddTrailingMetadata("footwall-error-bin", told.SerializeAsString());
+      if (context_ != nullptr) context_->AddTrailingMetadata(kFailureMetadata, told.SerializeAsString());
       end_ = grpc::Status(status_code_of(failure->code()), told.message());
       // A failure is told at once; what was on its way is part of an answer that never becomes whole.
       for (const grpc::ByteBuffer& bytes : outbox_) outbox_bytes_ -= bytes.Length();
