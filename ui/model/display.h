@@ -1,0 +1,128 @@
+// What is shown and how, as against what is true: kept with the project (setting "studio.display"), not under undo.
+#pragma once
+#include <QJsonObject>
+#include <QObject>
+#include <QString>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "ui/model/section.h"
+#include "ui/model/selection.h"
+
+namespace footwall::ui {
+
+// How samples of a volume become colours.
+struct SampleLook {
+  QString colour_map = QStringLiteral("grey");
+  double clip_percentile = 99;  // of |value|; of value for a volume without a sign
+  double gain = 1;
+  std::optional<bool> interpolate;  // unset: where a sample covers at most 6 pixels
+  bool wiggle = false;
+  friend bool operator==(const SampleLook&, const SampleLook&) = default;
+};
+
+enum class FaceColours { kStatistic, kVoxels, kPlain };
+
+// How faces become colours.
+struct FaceLook {
+  FaceColours colours = FaceColours::kStatistic;
+  QString statistic = QStringLiteral("variance");
+  QString colour_map;  // empty: the statistic's own
+  std::optional<double> low, high;  // unset: 2nd and 98th percentile over all faults shown
+  bool edges = false;
+  friend bool operator==(const FaceLook&, const FaceLook&) = default;
+};
+
+// An isosurface in the scene.
+struct IsosurfaceLook {
+  Id id = 0;
+  Id volume = 0;
+  double value = 0;
+  QString colour = QStringLiteral("#c9a3e8");
+  bool as_picture = true;  // by the engine, with its depths; else its triangles
+  bool visible = true;
+  friend bool operator==(const IsosurfaceLook&, const IsosurfaceLook&) = default;
+};
+
+class Display final : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit Display(Document& document, QObject* parent = nullptr);
+
+  // The volume that sections show; 0 where the project has none.
+  Id volume() const { return volume_; }
+  void set_volume(Id volume);
+  const SampleLook& samples() const { return samples_; }
+  void set_samples(const SampleLook& look);
+  const FaceLook& faces() const { return faces_; }
+  void set_faces(const FaceLook& look);
+
+  bool is_visible(const Item& item) const { return !hidden_.contains({item.kind, item.id}); }
+  void set_visible(const Item& item, bool visible);
+
+  const std::vector<IsosurfaceLook>& isosurfaces() const { return isosurfaces_; }
+  Id add_isosurface(Id volume, double value);
+  void change_isosurface(const IsosurfaceLook& look);  // by id
+  void remove_isosurface(Id id);
+
+  // The sections of the tiled views; each is also a plane of the scene where visible there.
+  struct ShownSection {
+    Id id = 0;
+    Section section;
+    bool in_scene = true;
+    bool linked = true;  // moves with the cursor of the others
+    friend bool operator==(const ShownSection&, const ShownSection&) = default;
+  };
+  const std::vector<ShownSection>& sections() const { return sections_; }
+  Id add_section(const Section& section);
+  void move_section(Id id, const Section& section);
+  void change_section(const ShownSection& section);  // by id
+  void remove_section(Id id);
+
+  int step() const { return step_; }  // lines that X and Z move by
+  void set_step(int lines);
+  double fade_distance() const { return fade_distance_; }  // voxels up to which pillars off the section are drawn
+  void set_fade_distance(double voxels);
+  double exaggeration() const { return exaggeration_; }  // of heights in the scene, > 0
+  void set_exaggeration(double factor);
+  bool perspective() const { return perspective_; }
+  void set_perspective(bool on);
+
+  // Where the mouse points, shared by all views; nothing where it points at no place.
+  const std::optional<survey::IndexPoint>& cursor() const { return cursor_; }
+  void set_cursor(const std::optional<survey::IndexPoint>& place);
+
+  QJsonObject to_json() const;
+  // Takes what it understands; the rest keeps its default.
+  void from_json(const QJsonObject& json);
+
+ Q_SIGNALS:
+  void samples_changed();  // volume or look
+  void faces_changed();
+  void visibility_changed();
+  void isosurfaces_changed();
+  void sections_changed();
+  void cursor_moved();
+  void scene_changed();  // exaggeration, perspective, fade distance, step
+  void changed();        // anything that to_json() holds
+
+ private:
+  Document& document_;
+  Id volume_ = 0;
+  SampleLook samples_;
+  FaceLook faces_;
+  std::set<std::pair<Item::Kind, Id>> hidden_;
+  std::vector<IsosurfaceLook> isosurfaces_;
+  std::vector<ShownSection> sections_;
+  Id last_id_ = 0;
+  int step_ = 1;
+  double fade_distance_ = 5;
+  double exaggeration_ = 1;
+  bool perspective_ = true;
+  std::optional<survey::IndexPoint> cursor_;
+};
+
+}  // namespace footwall::ui

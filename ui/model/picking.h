@@ -1,0 +1,82 @@
+// Gestures: what a press, drag or key over a view does to pillars. One state machine for sections and scene; views say
+// where the mouse is in the survey and what lies under it, and show hint(), cursor() and the provisional pillars.
+//
+// The set is OpendTect's without its conflicts: click adds a node, double-click or Enter ends the pillar, Shift+click
+// starts a new one, Ctrl+click deletes a node, a drag moves a node, a drag on empty ground (more than 5 px, longer than
+// 200 ms) draws a pillar free-hand, ` + drag makes a copy, Esc leaves with nothing changed, Space held navigates.
+#pragma once
+#include <QObject>
+#include <QString>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "ui/model/display.h"
+#include "ui/model/document.h"
+#include "ui/model/section.h"
+#include "ui/model/selection.h"
+
+namespace footwall::ui {
+
+enum class Tool { kSelect, kPick, kMove };
+enum class PointerShape { kArrow, kCross, kMoveNode, kAddNode, kDeleteNode, kPen, kHand };
+
+// Where a view's mouse is.
+struct Pointer {
+  double x = 0, y = 0;      // pixels of the view
+  survey::IndexPoint place; // on the section, or the plane of the scene under the mouse; index space
+  Section section;          // that plane
+  bool on_section = false;  // false: over nothing that can be picked on
+  Item under;               // node, pillar, face or nothing, within the view's catch radius
+  int segment = -1;         // of a pillar under the mouse: the segment (its first node's number)
+  Qt::KeyboardModifiers modifiers;
+  Qt::MouseButton button = Qt::NoButton;  // of a press or release
+  std::chrono::milliseconds time{0};      // of the event
+};
+
+class Picking final : public QObject {
+  Q_OBJECT
+
+ public:
+  Picking(Document& document, Selection& selection, Display& display, QObject* parent = nullptr);
+  ~Picking() override;
+
+  Tool tool() const;
+  void set_tool(Tool tool);
+  // The pillar that clicks add to; 0: the next click starts one.
+  Id active_pillar() const;
+  bool snaps_to_section() const;  // nodes lie exactly on the section's plane (default)
+  bool snaps_to_lattice() const;  // nodes lie on samples
+  void set_snapping(bool to_section, bool to_lattice);
+
+  // Each returns whether it took the event; a view pans, orbits or selects with those it did not take.
+  bool move(const Pointer& pointer);
+  bool press(const Pointer& pointer);
+  bool release(const Pointer& pointer);
+  bool double_click(const Pointer& pointer);
+  bool key_press(int key, Qt::KeyboardModifiers modifiers);
+  bool key_release(int key);
+  void leave();
+
+  // What the next click would do, in a line.
+  QString hint() const;
+  PointerShape shape() const;
+  bool is_dragging() const;
+  // Index space: the free-hand stroke under way, for the view it began in.
+  const std::vector<survey::IndexPoint>& stroke() const;
+
+ Q_SIGNALS:
+  void hint_changed();
+  void tool_changed();
+  void active_pillar_changed();
+  void stroke_changed();
+  // A pillar was ended: a view may step to the next section.
+  void pillar_ended(footwall::ui::Id pillar);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace footwall::ui

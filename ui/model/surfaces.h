@@ -1,0 +1,74 @@
+// The triangle surface and colours of every fault, kept in step with the pillars: while a node is dragged as well as
+// after an edit. Triangulates on a thread of its own; colours come from the engine (engine_link.h) or from the runs of the
+// project.
+#pragma once
+#include <QObject>
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "engine/pillars/triangulate.h"
+#include "storage/survey/lattice.h"
+#include "ui/model/document.h"
+
+namespace footwall::ui {
+
+// One triangulation, never changed after it was made.
+struct FaultSurface {
+  Id fault = 0;
+  std::int64_t revision = 0;  // FaultRecord::revision of its pillars; 0 while provisional
+  std::vector<survey::WorldPoint> vertices;
+  std::vector<survey::IndexPoint> places;  // of the same vertices, on the lattice, in voxels
+  std::vector<project::MeshFace> faces;
+};
+
+// How much its colours are worth, as ui.md's four states.
+enum class Freshness { kFresh, kFollowing, kStale, kPlain };
+
+// A statistic of the faces of one surface, in its order.
+struct FaceNumbers {
+  std::vector<double> values;        // NaN: undefined, or not known yet
+  std::vector<std::uint8_t> stale;   // 1: the value is that of the face before it moved
+  std::vector<std::uint8_t> hatched; // 1: under 30 samples, left out of rankings
+};
+
+class EngineLink;
+
+class Surfaces final : public QObject {
+  Q_OBJECT
+
+ public:
+  // engine: may be null; colours then come from stored runs.
+  Surfaces(Document& document, EngineLink* engine, QObject* parent = nullptr);
+  ~Surfaces() override;
+
+  // The newest surface of the fault; null where it has none (fewer than two pillars, or see problem()).
+  std::shared_ptr<const FaultSurface> surface(Id fault) const;
+  // Why the fault has no surface, or what the user should know about it; empty where all is well.
+  QString problem(Id fault) const;
+  // name: of the project's statistics. Null where nothing of it is known.
+  std::shared_ptr<const FaceNumbers> numbers(Id fault, const QString& statistic) const;
+  Freshness freshness(Id fault, const QString& statistic) const;
+  // Names, ranges and colour maps, as the project registers them.
+  const std::vector<project::StatisticRecord>& statistics() const;
+  // 2nd to 98th percentile over all faults given, of values that are not stale; nothing where there are none.
+  std::optional<std::pair<double, double>> range(const std::set<Id>& faults, const QString& statistic) const;
+
+  // Detail of a fault's triangulation, kept in the project.
+  pillars::Options options(Id fault) const;
+  void set_options(Id fault, const pillars::Options& options);
+
+ Q_SIGNALS:
+  void surfaces_changed(const std::set<footwall::ui::Id>& faults);
+  void numbers_changed(const std::set<footwall::ui::Id>& faults);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace footwall::ui

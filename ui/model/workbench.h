@@ -1,0 +1,37 @@
+// Everything that one window works on. Widgets hold a reference and live shorter.
+#pragma once
+#include <memory>
+
+#include "ui/model/display.h"
+#include "ui/model/document.h"
+#include "ui/model/engine_link.h"
+#include "ui/model/jobs.h"
+#include "ui/model/picking.h"
+#include "ui/model/section_reader.h"
+#include "ui/model/selection.h"
+#include "ui/model/surfaces.h"
+
+namespace footwall::ui {
+
+struct Workbench {
+  // engine: nothing starts until it is needed.
+  Workbench(project::Project project, const EngineLink::Options& engine);
+  // Stores what is shown (Display) in the project.
+  ~Workbench();
+
+  Document document;
+  Selection selection;
+  Display display;
+  Picking picking;
+  SectionReader sections;
+  EngineLink engine;
+  Surfaces surfaces;
+  Jobs jobs;
+};
+
+// A project by path. For writing; where somebody else writes it, for reading, and
+// `held` then says who (empty otherwise). Throws Error.
+std::unique_ptr<Workbench> open_workbench(const std::filesystem::path& path, const EngineLink::Options& engine,
+                                          QString* held);
+
+}  // namespace footwall::ui
