@@ -99,10 +99,21 @@ project::MeshRecord mesh_of_fault(const project::Project& project, const project
   if (const auto surface = project.surface_of(fault.id)) return adopted_mesh(project, fault, *surface, notes);
   const survey::Geometry survey = required_survey(project, "triangulation");
   const std::vector<survey::Pillar> stored = project.pillars(fault.id);
+  project::Bytes chart = fault.chart;
+  if (chart.empty()) {
+    if (const auto former = project.mesh(fault.id)) chart = former->chart;
+  }
+  return mesh_of_pillars(survey, fault, stored, chart, options, job, notes);
+}
+
+project::MeshRecord mesh_of_pillars(const survey::Geometry& survey, const project::FaultRecord& fault,
+                                    std::span<const survey::Pillar> stored, const project::Bytes& chart,
+                                    const TriangulateOptions& options, const JobContext& job,
+                                    std::vector<std::string>* notes) {
   try {
     const pillars::FaultMesh mesh = pillars::triangulate(
         pillars::inputs_of(survey, stored), {options.detail, options.max_edge, options.tie},
-        options.rechart ? std::nullopt : stored_chart(project, fault), job);
+        options.rechart ? std::nullopt : unpacked(chart), job);
     if (notes != nullptr) *notes = mesh.notes;
     return mesh_record(survey, fault, stored, mesh, options);
   } catch (const Error& error) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/service/client/connection_file.h"
 #include "ui/model/document.h"
 
 namespace footwall::ui {
@@ -67,14 +68,19 @@ class EngineLink final : public QObject {
   // "2 ranks", "engine stopped: killed by signal 9": for the status bar and its banner.
   QString state_text() const;
   int ranks() const;
+  // How to reach the engine that runs; nothing where none does.
+  std::optional<service::Connection> connection() const;
   // Starts it, or again after kLost. Returns at once.
   void start();
   void stop();
 
   // The volume that statistics are of. Opens it, and tells the engine the faults again.
   void set_volume(Id volume);
+  Id volume() const;
+  // The newest edit that numbers have come for: all up to it are answered.
+  std::uint64_t answered() const;
   // The faces of a fault are these from now on; numbers() of those that changed follow, under the number returned or a
-  // later one. Newest wins. Does nothing while there is no engine (returns 0).
+  // later one. Newest wins. While there is no engine the newest surfaces are kept for when there is one.
   std::uint64_t put_fault(const std::shared_ptr<const FaultSurface>& surface);
   std::uint64_t remove_fault(Id fault);
 

@@ -17,13 +17,16 @@
 
 namespace footwall::ui {
 
-// One triangulation, never changed after it was made.
+// One triangulation, never changed after it was made. Vertices and faces go together: faces[f].vertices are numbers of
+// vertices, lattice[f] the same corners as the engine has them.
 struct FaultSurface {
   Id fault = 0;
-  std::int64_t revision = 0;  // FaultRecord::revision of its pillars; 0 while provisional
+  std::int64_t revision = 0;  // FaultRecord::revision of its pillars
+  bool provisional = false;   // of pillars that are shown, not stored
   std::vector<survey::WorldPoint> vertices;
-  std::vector<survey::IndexPoint> places;  // of the same vertices, on the lattice, in voxels
+  std::vector<survey::IndexPoint> places;  // of the same vertices, in voxels, as they are (not rounded)
   std::vector<project::MeshFace> faces;
+  std::vector<survey::LatticeTriangle> lattice;
 };
 
 // How much its colours are worth, as ui.md's four states.
@@ -58,9 +61,13 @@ class Surfaces final : public QObject {
   // 2nd to 98th percentile over all faults given, of values that are not stale; nothing where there are none.
   std::optional<std::pair<double, double>> range(const std::set<Id>& faults, const QString& statistic) const;
 
-  // Detail of a fault's triangulation, kept in the project.
+  // Detail of a fault's triangulation, kept with its mesh. The surface is made anew.
   pillars::Options options(Id fault) const;
   void set_options(Id fault, const pillars::Options& options);
+  // Nothing is being triangulated, and no answer of the engine is awaited.
+  bool is_settled() const;
+  // Keeps what is known now as the live run of the engine's volume, in the project. Nothing where nothing is known.
+  void store_live_run();
 
  Q_SIGNALS:
   void surfaces_changed(const std::set<footwall::ui::Id>& faults);

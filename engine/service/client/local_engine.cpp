@@ -31,6 +31,7 @@ struct LocalEngine::State {
   Replay replay;
   std::unique_ptr<EngineProcess> process;
   std::unique_ptr<EngineClient> client;  // null until the replay was done
+  Connection connection;
   DeathCount deaths;
   int starts = 0;
 
@@ -53,14 +54,15 @@ struct LocalEngine::State {
     EngineProcessOptions how;
     how.launch = options;
     process = std::make_unique<EngineProcess>(how);
-    std::optional<Connection> connection;
+    std::optional<Connection> reached;
     try {
-      connection = process->wait_until_ready(job);
+      reached = process->wait_until_ready(job);
     } catch (...) {
       process.reset();  // it cannot be started here, and so not a second time
       throw;
     }
-    auto fresh = std::make_unique<EngineClient>(*connection);
+    auto fresh = std::make_unique<EngineClient>(*reached);
+    connection = *reached;
     if (replay) replay(*fresh);
     client = std::move(fresh);
   }
@@ -115,6 +117,11 @@ void LocalEngine::with_engine(const std::function<void(EngineClient&)>& f, const
 
 bool LocalEngine::is_running() const {
   return state_->runs();
+}
+
+Connection LocalEngine::connection() const {
+  if (!state_->client) throw Error(ErrorCode::kEngine, "no engine runs");
+  return state_->connection;
 }
 
 int LocalEngine::starts() const {

@@ -40,6 +40,8 @@ class LocalEngine {
   // f with a client; where the engine died on the way, once more with a new one.
   void with_engine(const std::function<void(EngineClient&)>& f, const JobContext& job = {});
   bool is_running() const;
+  // How to reach the engine that runs, for a second client. Throws kEngine where none does.
+  Connection connection() const;
   int starts() const;
 
  private:

@@ -1,0 +1,148 @@
+// Colours with a real engine: the same numbers as a batch run, following a hand, and going on after the engine's death.
+#include <QSignalSpy>
+#include <QTest>
+#include <cmath>
+#include <csignal>
+
+#include "engine/service/client/engine_client.h"
+#include "engine/tasks/extract_run.h"
+#include "ui/model/engine_link.h"
+#include "ui/model/surfaces.h"
+#include "ui/sample_project.h"
+#include "ui/test_class.h"
+
+namespace footwall::ui {
+
+constexpr int kPatience = 60000;
+
+class LiveColoursTest final : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void surfaces_are_made_without_an_engine();
+  void numbers_are_those_of_a_run();
+  void colours_follow_a_hand_and_go_on_after_a_death();
+  void a_live_run_is_there_again_when_opened();
+};
+
+void LiveColoursTest::surfaces_are_made_without_an_engine() {
+  const SampleProject sample;
+  Document document(sample.open());
+  Surfaces surfaces(document, nullptr);
+  const Id fault = document.faults()[0].record.id;
+  QTRY_VERIFY_WITH_TIMEOUT(surfaces.is_settled() && surfaces.surface(fault) != nullptr, kPatience);
+  QVERIFY(!document.project().mesh_is_stale(fault));  // kept
+  QCOMPARE(surfaces.freshness(fault, "variance"), Freshness::kPlain);
+  QCOMPARE(surfaces.freshness(fault, "dip"), Freshness::kFresh);  // needs no voxels
+  QVERIFY(surfaces.range({fault}, "dip").has_value());
+  // A fault that loses its pillars loses its surface, and an undo brings both back.
+  std::vector<Id> pillars;
+  for (const auto& pillar : document.faults()[0].pillars) pillars.push_back(pillar.id);
+  document.edit("delete", [&](project::Interpretation& now) {
+    for (const Id pillar : pillars) now.delete_pillar(pillar);
+  });
+  QTRY_VERIFY_WITH_TIMEOUT(surfaces.surface(fault) == nullptr, kPatience);
+  document.undo();
+  QTRY_VERIFY_WITH_TIMEOUT(surfaces.surface(fault) != nullptr, kPatience);
+}
+
+void LiveColoursTest::numbers_are_those_of_a_run() {
+  const SampleProject sample;
+  Document document(sample.open());
+  EngineLink engine(document, {.ranks = 2, .connection = {}});
+  Surfaces surfaces(document, &engine);
+  QSignalSpy failed(&engine, &EngineLink::failed);
+  engine.start();
+  const auto all_fresh = [&] {
+    return std::ranges::all_of(document.faults(), [&](const Fault& fault) {
+      return surfaces.freshness(fault.record.id, "variance") == Freshness::kFresh;
+    });
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(all_fresh(), kPatience);
+  QCOMPARE(failed.size(), 0);
+  QCOMPARE(engine.ranks(), 2);
+  engine.stop();
+  const tasks::Extracted run = tasks::extract_run(document.store(), {}, {});
+  for (const Fault& fault : document.faults()) {
+    const project::FaultRun expected = document.project().fault_statistics(run.run, fault.record.id);
+    const auto surface = surfaces.surface(fault.record.id);
+    QCOMPARE(surface->faces.size(), expected.panels.size());
+    for (const char* name : {"count", "mean", "variance", "min", "max", "contrast", "area", "dip"}) {
+      const auto numbers = surfaces.numbers(fault.record.id, name);
+      QVERIFY2(numbers != nullptr, name);
+      const std::vector<double>& values = expected.statistics.at(name);
+      for (std::size_t f = 0; f < values.size(); ++f) {
+        QCOMPARE(surface->faces[f].panel, expected.panels[f]);
+        QVERIFY2(values[f] == numbers->values[f] || (std::isnan(values[f]) && std::isnan(numbers->values[f])), name);
+      }
+    }
+  }
+}
+
+void LiveColoursTest::colours_follow_a_hand_and_go_on_after_a_death() {
+  const SampleProject sample;
+  Document document(sample.open());
+  EngineLink engine(document, {.ranks = 2, .connection = {}});
+  Surfaces surfaces(document, &engine);
+  engine.start();
+  const Id fault = document.faults()[0].record.id;
+  const auto fresh = [&] {
+    return surfaces.is_settled() && surfaces.freshness(fault, "variance") == Freshness::kFresh;
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(fresh(), kPatience);
+  const auto before = surfaces.numbers(fault, "variance");
+  // 1. A hand moves a node to and fro: numbers arrive while it does, and are known to be of a hand.
+  std::vector<survey::Pillar> pillars = document.faults()[0].pillars;
+  const survey::Pillar pillar = pillars[1];
+  QSignalSpy numbers(&surfaces, &Surfaces::numbers_changed);
+  for (int n = 1; n <= 20; ++n) {
+    pillars[1].nodes[1].position.x = pillar.nodes[1].position.x + n;
+    document.show_provisionally(fault, pillars);
+    QCOMPARE(surfaces.freshness(fault, "variance"), Freshness::kFollowing);
+    QTest::qWait(5);
+  }
+  QTRY_VERIFY_WITH_TIMEOUT(!numbers.empty(), kPatience);
+  // 2. Esc: the stored colours again.
+  document.end_provisional();
+  QTRY_VERIFY_WITH_TIMEOUT(fresh(), kPatience);
+  QCOMPARE(surfaces.numbers(fault, "variance")->values, before->values);
+  // 3. The engine's ranks are killed; the next gesture gets its colours all the same.
+  const auto status = service::EngineClient(*engine.connection()).status();
+  for (const auto& rank : status.each_rank()) ::kill(rank.process(), SIGKILL);
+  document.edit("Move node", [&](project::Interpretation& now) {
+    survey::WorldPoint p = pillar.nodes[1].position;
+    p.x += 30;
+    now.move_node(pillar.nodes[1].id, p);
+  });
+  const auto moved = [&] { return fresh() && surfaces.numbers(fault, "variance")->values != before->values; };
+  QTRY_VERIFY_WITH_TIMEOUT(moved(), kPatience);
+}
+
+void LiveColoursTest::a_live_run_is_there_again_when_opened() {
+  const SampleProject sample;
+  std::vector<double> known;
+  {
+    Document document(sample.open());
+    EngineLink engine(document, {.ranks = 1, .connection = {}});
+    Surfaces surfaces(document, &engine);
+    engine.start();
+    const Id fault = document.faults()[0].record.id;
+    const auto fresh = [&] {
+      return surfaces.is_settled() && surfaces.freshness(fault, "variance") == Freshness::kFresh;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(fresh(), kPatience);
+    known = surfaces.numbers(fault, "variance")->values;
+    surfaces.store_live_run();
+  }
+  Document document(sample.open());
+  Surfaces surfaces(document, nullptr);
+  const Id fault = document.faults()[0].record.id;
+  QTRY_COMPARE_WITH_TIMEOUT(surfaces.freshness(fault, "variance"), Freshness::kFresh, kPatience);
+  QCOMPARE(surfaces.numbers(fault, "variance")->values, known);
+}
+
+static const RegisterTest<LiveColoursTest> kRegistered;
+
+}  // namespace footwall::ui
+
+#include "live_colours_test.moc"

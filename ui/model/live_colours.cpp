@@ -1,0 +1,275 @@
+#include "ui/model/live_colours.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include "engine/service/client/engine_client.h"
+#include "engine/service/client/local_engine.h"
+#include "storage/base/error.h"
+#include "ui/model/face_edits.h"
+
+namespace footwall::ui {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Of one batch; the rest of many changed faults follows in the next ones.
+constexpr std::size_t kFacesInBatch = 50000;
+// How often an idle engine is asked whether it is still there.
+constexpr auto kLook = 1s;
+
+EngineNumbers plain(const v1::LiveReply& reply) {
+  EngineNumbers numbers;
+  numbers.edit = reply.edit();
+  const v1::FaceNumbers& of = reply.numbers();
+  numbers.faults.assign(of.faces().faults().begin(), of.faces().faults().end());
+  numbers.panels.assign(of.faces().owners().begin(), of.faces().owners().end());
+  numbers.face_numbers.assign(of.faces().numbers().begin(), of.faces().numbers().end());
+  const auto take = [&](const char* name, const auto& column) {
+    // A column that was not asked for is empty.
+    if (static_cast<std::size_t>(column.size()) != numbers.faults.size()) return;
+    numbers.statistics[name].assign(column.begin(), column.end());
+  };
+  take("count", of.count());
+  take("nulls", of.nulls());
+  take("outside", of.outside());
+  take("mean", of.mean());
+  take("variance", of.variance());
+  take("min", of.min());
+  take("max", of.max());
+  take("discontinuity", of.discontinuity());
+  take("contrast", of.contrast());
+  take("offset_voxels", of.offset_voxels());
+  take("offset_score", of.offset_score());
+  return numbers;
+}
+
+}  // namespace
+
+// One stretch with one engine and one volume.
+struct LiveColours::Session {
+  std::map<Id, std::shared_ptr<const FaultSurface>> told;
+  std::uint64_t sent = 0;      // the newest edit told
+  std::uint64_t answered = 0;  // guarded by mutex_
+  std::uint64_t engine_edit = 0;
+  std::map<std::uint64_t, std::uint64_t> ours;  // the engine's number of an edit -> ours; guarded by mutex_
+};
+
+LiveColours::LiveColours(std::optional<service::Connection> connection, int ranks, Events events)
+    : given_(std::move(connection)), ranks_(ranks), events_(std::move(events)), thread_([this] { work(); }) {}
+
+LiveColours::~LiveColours() {
+  {
+    const std::scoped_lock lock(mutex_);
+    ends_ = true;
+    job_.cancel();
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+void LiveColours::start() {
+  {
+    const std::scoped_lock lock(mutex_);
+    wanted_ = true;
+  }
+  wake_.notify_all();
+}
+
+void LiveColours::stop() {
+  {
+    const std::scoped_lock lock(mutex_);
+    wanted_ = false;
+    job_.cancel();
+  }
+  wake_.notify_all();
+}
+
+void LiveColours::set_volume(const std::optional<EngineVolume>& volume) {
+  {
+    const std::scoped_lock lock(mutex_);
+    volume_ = volume;
+  }
+  wake_.notify_all();
+}
+
+std::uint64_t LiveColours::put(const std::shared_ptr<const FaultSurface>& surface) {
+  std::uint64_t edit = 0;
+  {
+    const std::scoped_lock lock(mutex_);
+    surfaces_[surface->fault] = surface;
+    dirty_.insert(surface->fault);
+    edit = ++edit_;
+  }
+  wake_.notify_all();
+  return edit;
+}
+
+std::uint64_t LiveColours::remove(Id fault) {
+  std::uint64_t edit = 0;
+  {
+    const std::scoped_lock lock(mutex_);
+    surfaces_.erase(fault);
+    dirty_.insert(fault);
+    edit = ++edit_;
+  }
+  wake_.notify_all();
+  return edit;
+}
+
+std::optional<service::Connection> LiveColours::connection() const {
+  const std::scoped_lock lock(mutex_);
+  return reached_;
+}
+
+void LiveColours::say(EngineLink::State state, const std::string& text) {
+  events_.state(state, text);
+}
+
+void LiveColours::work() {
+  std::unique_ptr<service::LocalEngine> local;
+  std::unique_ptr<service::EngineClient> remote;
+  for (;;) {
+    std::unique_lock lock(mutex_);
+    wake_.wait(lock, [this] { return ends_ || wanted_; });
+    if (ends_) return;
+    job_ = JobContext();
+    const JobContext job = job_;
+    lock.unlock();
+    try {
+      say(EngineLink::State::kStarting);
+      service::EngineClient* client = nullptr;
+      if (given_) {
+        remote = std::make_unique<service::EngineClient>(*given_);
+        client = remote.get();
+      } else {
+        session::LaunchOptions launch;
+        launch.ranks = ranks_;
+        if (local == nullptr) local = std::make_unique<service::LocalEngine>(launch, service::LocalEngine::Replay{});
+        client = &local->client(job);
+      }
+      const int ranks = client->status().ranks();
+      lock.lock();
+      reached_ = given_ ? given_ : std::optional(local->connection());
+      lock.unlock();
+      say(EngineLink::State::kReady, fmt::format("{} rank{}", ranks, ranks == 1 ? "" : "s"));
+      serve(*client);
+      say(EngineLink::State::kOff);
+      if (!given_) local.reset();
+    } catch (const Error& error) {
+      remote.reset();
+      lock.lock();
+      reached_.reset();
+      const bool told_to = ends_ || !wanted_;
+      // A local engine that died is started again at once; LocalEngine gives up after three deaths in a minute.
+      const bool again = !told_to && !given_ && local != nullptr && !local->is_running() && local->starts() > 0 &&
+                         error.message().find("three times") == std::string::npos &&
+                         error.code() == ErrorCode::kEngine;
+      if (!told_to && !again) wanted_ = false;
+      lock.unlock();
+      if (told_to) {
+        local.reset();
+        say(EngineLink::State::kOff);
+      } else {
+        say(EngineLink::State::kLost, error.message());
+        if (!again) {
+          local.reset();
+          events_.failed(error.message(), error.hint());
+        }
+      }
+    }
+  }
+}
+
+bool LiveColours::has_work() const {
+  return !dirty_.empty();
+}
+
+void LiveColours::serve(service::EngineClient& client) {
+  for (;;) {  // one round for each volume
+    std::unique_lock lock(mutex_);
+    wake_.wait(lock, [this] { return ends_ || !wanted_ || volume_.has_value(); });
+    if (ends_ || !wanted_) return;
+    const EngineVolume volume = *volume_;
+    const JobContext job = job_;
+    for (const auto& [fault, surface] : surfaces_) dirty_.insert(fault);
+    lock.unlock();
+
+    v1::VolumeName name;
+    name.set_checksum(volume.checksum);
+    name.set_path(volume.path);
+    const std::string opened = client.open_volume(name, job).volume();
+    const auto session = std::make_shared<Session>();
+    session->engine_edit = client.status().edit();
+    v1::EditBatch clear;
+    clear.set_edit(++session->engine_edit);
+    clear.add_edits()->set_clear(true);
+    client.edit(clear);
+
+    v1::ExtractOptions options;
+    for (const char* one : {"count", "mean", "variance", "min", "max", "discontinuity", "contrast"}) {
+      options.add_compute(one);
+    }
+    auto live = client.live(opened, options, [this, session](const v1::LiveReply& reply) {
+      EngineNumbers numbers = plain(reply);
+      {
+        const std::scoped_lock guard(mutex_);
+        session->answered = std::max(session->answered, reply.edit());
+        const auto found = session->ours.upper_bound(reply.edit());
+        numbers.edit = found == session->ours.begin() ? 0 : std::prev(found)->second;
+        session->ours.erase(session->ours.begin(), found == session->ours.begin() ? found : std::prev(found));
+      }
+      if (reply.has_failure()) events_.failed(reply.failure().message(), reply.failure().hint());
+      events_.numbers(std::move(numbers));
+      wake_.notify_all();
+    });
+
+    lock.lock();
+    for (;;) {
+      const auto ready = [&] {
+        return ends_ || !wanted_ || volume_ != volume || (has_work() && session->answered >= session->sent);
+      };
+      if (!wake_.wait_for(lock, kLook, ready)) {
+        lock.unlock();
+        client.status();  // throws when the engine is gone
+        lock.lock();
+        continue;
+      }
+      if (ends_ || !wanted_ || volume_ != volume) break;
+      v1::EditBatch batch;
+      std::size_t faces = 0;
+      while (!dirty_.empty() && faces < kFacesInBatch) {
+        const Id fault = *dirty_.begin();
+        dirty_.erase(dirty_.begin());
+        const auto now = surfaces_.find(fault);
+        auto& told = session->told[fault];
+        const auto next = now == surfaces_.end() ? nullptr : now->second;
+        faces += append_edits(fault, told.get(), next.get(), batch);
+        told = next;
+      }
+      const std::uint64_t mine = dirty_.empty() ? edit_ : 0;  // what is still to come has not been told
+      if (batch.edits_size() == 0) {
+        lock.unlock();
+        EngineNumbers nothing;
+        nothing.edit = mine;
+        events_.numbers(std::move(nothing));
+        lock.lock();
+        continue;
+      }
+      batch.set_edit(++session->engine_edit);
+      session->sent = batch.edit();
+      if (mine != 0) session->ours[batch.edit()] = mine;
+      lock.unlock();
+      live->send(batch);
+      lock.lock();
+    }
+    const bool goes_on = !ends_ && wanted_;
+    lock.unlock();
+    live.reset();
+    if (!goes_on) return;
+  }
+}
+
+}  // namespace footwall::ui
