@@ -4,9 +4,9 @@
 
 #include <numeric>
 
+#include "engine/comm/shared_text.h"
 #include "engine/service/engine.pb.h"
 #include "engine/service/resident/load_volume.h"
-#include "engine/service/resident/shared_text.h"
 #include "storage/base/hash.h"
 #include "storage/base/usable_memory.h"
 #include "storage/volume/volume_reader.h"
@@ -71,7 +71,7 @@ OpenVolumes::Found OpenVolumes::locate_here(const v1::VolumeName& name) {
 
 OpenVolumes::Found OpenVolumes::locate(const v1::VolumeName& name) {
   const Found found = world_.collectively([&] { return world_.rank() == 0 ? locate_here(name) : Found(); });
-  return {shared_text(world_, found.path.string()), shared_text(world_, found.checksum)};
+  return {comm::shared_text(world_, found.path.string()), comm::shared_text(world_, found.checksum)};
 }
 
 std::int64_t OpenVolumes::on_this_host(const std::vector<std::int64_t>& rank_bytes) const {

@@ -11,9 +11,9 @@
 #include "bench/service/bench_calls.h"
 #include "bench/service/processes.h"
 #include "engine/comm/environment.h"
+#include "engine/comm/shared_text.h"
 #include "engine/service/resident/doorbell.h"
 #include "engine/service/resident/resident.h"
-#include "engine/service/resident/shared_text.h"
 #include "engine/tasks/workload/grow.h"
 #include "engine/tasks/workload/values.h"
 #include "scratch_folder.h"
@@ -252,7 +252,7 @@ int number(int argc, char** argv, int place, int otherwise) {
 void run(comm::Communicator& world, int argc, char** argv) {
   std::optional<ScratchFolder> scratch;
   if (world.rank() == 0) scratch.emplace();
-  const std::filesystem::path folder = shared_text(world, scratch ? scratch->path().string() : "");
+  const std::filesystem::path folder = comm::shared_text(world, scratch ? scratch->path().string() : "");
   if (world.rank() == 0) std::printf("%d ranks of 1 thread, benchmark 2's model\n", world.size());
   bench_ring(world, folder, "ring to the last rank", host_of_ranks(world));
   std::vector<int> apart(static_cast<std::size_t>(world.size()));

@@ -6,9 +6,9 @@
 #include <functional>
 #include <thread>
 
+#include "engine/comm/shared_text.h"
 #include "engine/service/ranks.pb.h"
 #include "engine/service/resident/resident.h"
-#include "engine/service/resident/shared_text.h"
 #include "scratch_folder.h"
 #include "storage/base/hash.h"
 #include "storage/volume/volume_writer.h"
@@ -110,7 +110,7 @@ class ResidentCase : public testing::Test {
  protected:
   ResidentCase() : world(MPI_COMM_WORLD) {
     if (world.rank() == 0) made_.emplace();
-    folder = shared_text(world, made_ ? made_->path().string() : "");
+    folder = comm::shared_text(world, made_ ? made_->path().string() : "");
     options.folder = folder;
     options.volumes = folder;
   }

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "engine/comm/shared_text.h"
 #include "engine/session/attribute.h"
 #include "engine/session/batch.h"
 #include "engine/session/isosurface_job.h"
@@ -44,15 +45,6 @@ class Emptied {
  private:
   path folder_;
 };
-
-std::string text_of(const comm::Bytes& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-std::string shared_text(const comm::Communicator& world, const std::string& text) {
-  const auto raw = std::as_bytes(std::span(text));
-  return text_of(world.broadcast(comm::Bytes(raw.begin(), raw.end()), 0));
-}
 
 std::vector<std::string> names_in(const path& folder) {
   std::vector<std::string> names;
@@ -98,7 +90,7 @@ void refuse_unseen(bool seen, const char* what) {
 }  // namespace
 
 bool all_ranks_see(const comm::Communicator& world, const path& folder) {
-  const std::string name = shared_text(world, world.collectively([&] {
+  const std::string name = comm::shared_text(world, world.collectively([&] {
     if (world.rank() != 0) return std::string();
     const path mark = folder / (".seen-" + std::to_string(::getpid()));
     write_whole_file(mark, "x");
@@ -130,7 +122,7 @@ void run_stored_task(const comm::Communicator& world, const v1::StoredTask& stor
     options.one_writer = !seen;
     session::run_batch(world, files, folder / "JOB.json", most, options);
   } else {
-    const std::string text = shared_text(world, files.json);
+    const std::string text = comm::shared_text(world, files.json);
     const std::string what = "the task";
     if (task.kind() == "attribute") {
       const auto made = world.collectively([&] {
