@@ -8,9 +8,9 @@
 #include "engine/service/ranks.pb.h"
 #include "engine/service/resident/commands.h"
 #include "engine/service/resident/pieces.h"
-#include "engine/service/resident/report_json.h"
 #include "engine/service/resident/resident_state.h"
 #include "engine/service/wire.h"
+#include "engine/session/report_json.h"
 #include "storage/base/hash.h"
 
 namespace footwall::service {
@@ -171,7 +171,8 @@ void extract(ResidentState& state, const v1::Command& command, const Send& send,
     done.set_faces(static_cast<std::int64_t>(numbers.faces.size()));
     done.set_voxels(numbers.report.voxels);
     if (is_all) done.set_checksum(to_hex(extract::checksum_of(numbers.faces, numbers.statistics)));
-    done.set_report_json(report_json(numbers.report, options));
+    done.set_report_json(session::report_json(numbers.report, options)
+                             .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     send(last);
   });
   if (extraction != nullptr) {
