@@ -5,8 +5,11 @@
 #include <grpc/support/log.h>
 #include <grpcpp/grpcpp.h>
 
+#include <condition_variable>
 #include <cstdlib>
 #include <fstream>
+#include <mutex>
+#include <optional>
 #include <thread>
 
 #include "engine/service/client/detail/answers.h"

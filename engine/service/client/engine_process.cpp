@@ -32,7 +32,7 @@ constexpr std::chrono::seconds kTimeToEnd{5};
 constexpr int kLookMilliseconds = 50;
 
 std::string listen_words(const std::string& listen, const std::filesystem::path& folder) {
-  const std::string words = listen == "unix" ? "unix:" + (folder / "engine.sock").string() : listen;
+  std::string words = listen == "unix" ? "unix:" + (folder / "engine.sock").string() : listen;
   const std::string path = words.starts_with("unix:") ? words.substr(5) : "";
   if (path.size() >= sizeof sockaddr_un::sun_path) {
     throw Error(ErrorCode::kUsage, "the socket's path is too long: " + path,

@@ -23,7 +23,7 @@ inline constexpr std::chrono::milliseconds kCancelInterval{20};
 template <class Reactor, class Reply>
 class Answers : public Reactor {
  public:
-  explicit Answers(grpc::ClientContext& context) : context_(context) {}
+  ~Answers() override = default;
   Answers(const Answers&) = delete;
   Answers& operator=(const Answers&) = delete;
 
@@ -75,7 +75,7 @@ class Answers : public Reactor {
   }
 
  protected:
-  ~Answers() override = default;
+  explicit Answers(grpc::ClientContext& context) : context_(context) {}
 
   // The call was set up: begins. The hold lets operations begin outside of gRPC's callbacks, until the end of
   // what is received.
