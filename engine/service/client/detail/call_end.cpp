@@ -9,7 +9,8 @@ namespace {
 Error plain_error_of(const grpc::Status& status) {
   switch (status.error_code()) {
     case grpc::StatusCode::CANCELLED:
-      return {ErrorCode::kCancelled, "cancelled"};
+      // Not by this program, which knows what it cancels, nor as a job, which is told with the failure.
+      return {ErrorCode::kEngine, "the engine ends", "start it again with footwall serve"};
     case grpc::StatusCode::UNAUTHENTICATED:
       return {ErrorCode::kInvalid, "the engine does not know this token",
               "use the connection file of the engine that runs now"};
