@@ -185,6 +185,7 @@ class Batch {
 
  private:
   void extract_missing(volume::ParallelVolumeReader& reader, SharedParts& parts, Totals& totals);
+  void tell(const std::vector<std::size_t>& written);
   void add(const extract::Seconds& group);
   Json log() {
     phases_.total = omp_get_wtime() - start_;
@@ -205,6 +206,13 @@ void Batch::add(const extract::Seconds& group) {
   add_phases(group, phases_.seconds);
   phases_.seconds.read = group.read;
   phases_.seconds.wait += group.wait;
+}
+
+void Batch::tell(const std::vector<std::size_t>& written) {
+  world_.collectively([&] {
+    if (world_.rank() != 0) return;
+    for (const std::size_t n : written) options_.part_written(part_path(job_.output, job_.faults[n].id));
+  });
 }
 
 void Batch::extract_missing(volume::ParallelVolumeReader& reader, SharedParts& parts, Totals& totals) {
@@ -234,6 +242,7 @@ void Batch::extract_missing(volume::ParallelVolumeReader& reader, SharedParts& p
     const double extracted = omp_get_wtime();
     parts.write(group, result.faces, result.blobs,
                 survey.faults(input, job_.options, context_.part(done, done)));
+    if (options_.part_written) tell(group);
     phases_.write += omp_get_wtime() - extracted;
     add(survey.own_seconds());
     totals.add(result.report);
@@ -296,6 +305,10 @@ void Batch::log_failure(const Error& error) {
 }
 
 }  // namespace
+
+bool goes_on_with(std::string_view name) {
+  return name == kLog || (name.starts_with("fault-") && name.ends_with(".part.h5"));
+}
 
 void run_batch(const comm::Communicator& world, const std::filesystem::path& job_path,
                const JobContext& context, const BatchOptions& options) {
