@@ -7,7 +7,7 @@ import weakref
 
 import numpy
 
-from . import command, connection, faces
+from . import command, connection, faces, pillars
 from ._messages import engine_pb2
 from .channel import Caller
 from .errors import Error
@@ -243,6 +243,48 @@ class Engine:
             places.append(numpy.array(reply.places, dtype=numpy.int32))
             values.append(numpy.array(reply.values, dtype=numpy.float32))
         return numpy.concatenate(places).reshape(-1, 3), numpy.concatenate(values)
+
+    # ---- Pillars ----
+
+    def _pillars(self, fault, picked_only=False):
+        """Of a fault by name or number, or as they are given."""
+        if isinstance(fault, dict):
+            return pillars.messages(fault)
+        project, fault = self._of_project(), self._fault_name(fault)
+        known, nodes = project.pillars(fault), project.nodes(fault)
+        places = numpy.stack([nodes[axis] for axis in "xyz"], axis=1)
+        return pillars.messages({int(pillar["pillar"]): places[nodes["pillar"] == pillar["pillar"]] for pillar in known
+                                 if not (picked_only and pillar["kind"] == "interpolated")})
+
+    def _fault_name(self, fault):
+        if isinstance(fault, str):
+            return fault
+        known = self._of_project().faults()
+        found = known["name"][known["fault"] == fault]
+        if len(found) == 0:
+            raise Error("not_found", f"there is no fault {fault}")
+        return str(found[0])
+
+    def interpolate(self, fault, every=None, tolerance=None):
+        """Pillars between those of a fault, a list of NewPillar: every so many lines, or as the surface needs them to
+        within `tolerance` voxels. fault: name or number, or {pillar's number: (n, 3) nodes X, Y, z}. Stores nothing;
+        Project.interpolate() does."""
+        if (every is None) == (tolerance is None):
+            raise Error("usage", "how many pillars?", "give one of every= (lines) and tolerance= (voxels)")
+        request = engine_pb2.InterpolateRequest(geometry_json=pillars.geometry_json(self._of_project().survey),
+                                                pillars=self._pillars(fault, True), every=every, tolerance=tolerance)
+        return pillars.new_pillars(self._caller.ask("Interpolate", request))
+
+    def triangulate(self, fault, detail=0, max_edge=0, tie=0, progress=None):
+        """A fault's mesh from its pillars, a Triangulation. fault: as for interpolate(); detail, max_edge, tie in voxels
+        (0: the usual), as `footwall triangulate`. Stores nothing; Project.triangulate() does."""
+        number = 0 if isinstance(fault, dict) else self.fault_number(fault)
+        request = engine_pb2.TriangulateRequest(geometry_json=pillars.geometry_json(self._of_project().survey),
+                                                fault=number, pillars=self._pillars(fault), detail=detail,
+                                                max_edge=max_edge, tie=tie)
+        for reply in self._caller.listen("Triangulate", request, progress):
+            return pillars.triangulation(reply.mesh)
+        raise Error("engine", "the engine sent no mesh")
 
     # ---- Isosurfaces and pictures ----
 

@@ -76,6 +76,42 @@ class PythonEngine(FootwallTest):
         numpy.testing.assert_array_equal(engine.section(sample=5), whole[:, :, 5])
         numpy.testing.assert_array_equal(engine.box(None, (3, 4, 5), (9, 9, 9)), whole[3:9, 4:9, 5:9])
 
+    def test_pillars_give_what_the_project_stores(self):
+        engine = self.started()
+        for fault in self.project.faults()["name"].tolist():
+            made = engine.triangulate(fault)
+            stored = self.project.faces(fault, coordinates="index")
+            self.assertGreater(len(made.faces), 0)
+            row = {name: n for n, name in enumerate(made.faces.ids.tolist())}
+            order = [row[name] for name in stored.ids.tolist()]
+            self.assertEqual(len(order), len(made.faces))
+            numpy.testing.assert_array_equal(made.faces.corners[order], stored.corners)
+            self.assertEqual(set(made.faces.faults.tolist()), {engine.fault_number(fault)})
+            numpy.testing.assert_allclose(self.project.survey.index_of(made.vertices[made.triangles]), made.faces.corners,
+                                          atol=1 / 256)
+        between = engine.interpolate("planar", every=2)
+        self.assertGreater(len(between), 0)
+        before = set(self.project.pillars("planar")["pillar"].tolist())
+        self.project.interpolate("planar", every=2)
+        nodes = self.project.nodes("planar")
+        added = [pillar for pillar in self.project.pillars("planar") if pillar["pillar"] not in before]
+        self.assertEqual([(each.first, each.second) for each in between], [tuple(pillar["parents"]) for pillar in added])
+        for each, pillar in zip(between, added):
+            stored = nodes[nodes["pillar"] == pillar["pillar"]]
+            numpy.testing.assert_allclose(each.nodes, numpy.stack([stored[name] for name in "xyz"], axis=1), rtol=1e-12)
+        self.assertEqual(len(engine.interpolate("planar", every=2)), len(between))  # of those that were picked, still
+        # Pillars of no project.
+        survey = self.project.survey
+        slope = {n: survey.world_of([[5, j, 4], [9, j, 20]]) for n, j in ((1, 5), (2, 15), (3, 25))}
+        flat = engine.interpolate(slope, every=5)
+        self.assertEqual([(each.first, each.second, each.parameter) for each in flat], [(1, 2, 0.5), (2, 3, 0.5)])
+        for each, j in zip(flat, (10, 20)):
+            numpy.testing.assert_allclose(survey.index_of(each.nodes), [[5, j, 4], [9, j, 20]], atol=1e-6)
+        self.assertGreater(len(engine.triangulate(slope).triangles), 0)
+        for wrong in (lambda: engine.interpolate("planar"), lambda: engine.triangulate("nobody")):
+            with self.assertRaises(footwall.Error):
+                wrong()
+
     def test_live_numbers_are_those_of_a_whole_extraction(self):
         engine = self.started()
         fault = str(self.project.faults()["name"][0])
