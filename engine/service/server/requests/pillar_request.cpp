@@ -23,7 +23,7 @@ survey::Geometry geometry_from(const std::string& text) {
     return survey::geometry_from_json(nlohmann::json::parse(text));
   } catch (const nlohmann::json::exception& error) {
     throw Error(ErrorCode::kInvalid, fmt::format("geometry_json is no survey's geometry: {}", error.what()),
-                "give it as `footwall info --json` prints it");
+                "give it as storage/survey/geometry_json.h has it; the Python package does");
   }
 }
 
