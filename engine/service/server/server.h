@@ -34,7 +34,7 @@ struct ServerOptions {
   // TLS, with the certificate in `certificates`, made on first use; port 0: any.
   std::string listen;
   std::string token;                   // at least 32 characters
-  std::filesystem::path certificates;  // a private folder for key and certificate; unused with unix:
+  std::filesystem::path certificates;  // a private folder for key and certificate, which stay; unused with unix:
   std::filesystem::path scratch;       // a private folder for the files of RunTask
   std::string version;                 // for Status
   ServerLimits limits;
