@@ -95,6 +95,8 @@ ServeCommand::ServeCommand(CLI::App& app)
   command_->add_option("--listen", listen_, "unix:PATH or tcp:HOST:PORT; port 0: any")->required();
   command_->add_option("--folder", options_.folder, "private, for sockets, certificate and files under way")
       ->required();
+  command_->add_option("--certificates", certificates_,
+                       "private, where key and certificate of TLS stay (default: in --folder)");
   command_->add_option("--volumes", options_.volumes, "where volumes are found by checksum");
   command_->add_option("--threads", options_.threads, "of each rank")->check(CLI::Range(1, 4096));
   command_->add_option("--memory", options_.memory_bytes, "bytes of each host (default: what is free there)")
@@ -129,7 +131,7 @@ void ServeCommand::run(comm::Communicator& world) {
     service::ServerOptions how;
     how.listen = listen_;
     how.token = token;
-    how.certificates = options_.folder / "certificate";
+    how.certificates = certificates_.empty() ? options_.folder / "certificate" : certificates_;
     how.scratch = options_.folder / "scratch";
     how.version = FOOTWALL_VERSION;
     server.emplace(

@@ -54,6 +54,24 @@ render::SurfaceLayer draw_whole(comm::Communicator& world, const RenderJob& job,
 
 }  // namespace
 
+std::int64_t DrawnVolume::memory_bytes() const {
+  std::int64_t bytes = samples_.memory_bytes() + visible_.sample_bytes();
+  for (const auto& whole : wholes_) {
+    for (const isosurface::Piece& piece : whole->extraction.pieces) {
+      const isosurface::Surface& surface = piece.surface;
+      bytes += static_cast<std::int64_t>(surface.positions.room_bytes() + surface.normals.room_bytes() +
+                                         surface.triangles.room_bytes() + surface.keys.room_bytes());
+    }
+  }
+  return bytes;
+}
+
+bool DrawnVolume::has_whole(float value, const std::string& interleave) const {
+  return std::any_of(wholes_.begin(), wholes_.end(), [&](const auto& each) {
+    return each->value == value && each->interleave == interleave;
+  });
+}
+
 std::shared_ptr<const DrawnVolume::Whole> DrawnVolume::whole(comm::Communicator& world, float value,
                                                              const std::string& interleave, int threads,
                                                              const JobContext& context) {

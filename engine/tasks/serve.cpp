@@ -83,7 +83,10 @@ class Serving {
     done_.file = options.connection.empty() ? service::default_connection_file(options.project)
                                             : std::filesystem::absolute(options.connection);
     engine_ = options.engine;
-    engine_.token = service::random_token();
+    engine_.token = service::told_token();
+    if (engine_.token.empty()) engine_.token = service::random_token();
+    // So that clients can go on after a stop and a start.
+    if (engine_.listen.starts_with("tcp:")) engine_.certificates = service::certificate_folder();
     engine_.project = options.project.empty() ? "" : std::filesystem::absolute(options.project).string();
     // The same address after each start.
     if (engine_.listen == "unix") engine_.listen = "unix:" + (home_.path() / "engine.sock").string();

@@ -65,6 +65,8 @@ struct EngineProcess::State {
                                    "--folder", folder.path().string()};
     if (!options.volumes.empty())
       words.insert(words.end(), {"--volumes", std::filesystem::absolute(options.volumes).string()});
+    if (!options.certificates.empty())
+      words.insert(words.end(), {"--certificates", options.certificates.string()});
     if (options.launch.threads > 0)
       words.insert(words.end(), {"--threads", std::to_string(options.launch.threads)});
     if (options.memory_bytes > 0)

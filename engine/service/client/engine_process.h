@@ -19,6 +19,8 @@ struct EngineProcessOptions {
   std::string listen = "unix";    // a socket in the engine's private folder; "unix:PATH", "tcp:HOST:PORT"
   std::string token;              // empty: a random one, for this process alone
   std::filesystem::path volumes;  // a folder whose volumes are found by checksum; empty: none
+  // Where key and certificate for "tcp:" stay, on the machine of rank 0; empty: new ones at each start.
+  std::filesystem::path certificates;
   std::int64_t memory_bytes = 0;  // of each host; 0: what is free there
   std::string project;            // for the connection
 };

@@ -7,6 +7,7 @@
 #include "engine/extract/computations.h"
 #include "engine/service/ranks.pb.h"
 #include "engine/service/resident/commands.h"
+#include "engine/service/resident/memory_needs.h"
 #include "engine/service/resident/pieces.h"
 #include "engine/service/resident/resident_state.h"
 #include "engine/service/wire.h"
@@ -150,6 +151,17 @@ void extract(ResidentState& state, const v1::Command& command, const Send& send,
     if (!request.has_only()) asked.extraction = &state.extractions.of(*asked.volume, asked.options);
     return asked;
   });
+
+  const bool is_changed = found.extraction != nullptr && request.changed_only() && found.extraction->complete;
+  const auto asked = static_cast<std::int64_t>(request.has_only() ? request.only().faults_size()
+                                               : is_changed       ? found.extraction->touched.size()
+                                                                  : state.model.faces().size());
+  const std::int64_t needed = extraction_passes(asked) + (request.has_only() ? 0 : extraction_stays(asked));
+  if (needed > kWorthAsking) {
+    state.memory.require_free(
+        needed, "the extraction",
+        "extract fewer faces at once, close volumes that are not needed, or use more hosts");
+  }
 
   OpenVolume* const volume = found.volume;
   const extract::Options& options = found.options;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/extract/computations.h"
+#include "engine/service/resident/memory_needs.h"
 
 namespace footwall::service {
 namespace {
@@ -57,6 +58,13 @@ void Extractions::touch(std::span<const extract::FaceIdentity> names, std::size_
   // So that the faces of scripts that number them anew each time do not pile up: such an extraction is begun
   // again when it is asked for.
   all_.remove_if([&](const Extraction& each) { return each.touched.size() > kTouchedAnyhow + 2 * faces; });
+}
+
+std::int64_t Extractions::memory_bytes() const {
+  std::int64_t faces = 0;
+  for (const Extraction& each : all_)
+    faces += each.incremental ? static_cast<std::int64_t>(each.incremental->size()) : 0;
+  return extraction_stays(faces);
 }
 
 void Extractions::forget(const std::string& volume) {

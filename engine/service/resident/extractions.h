@@ -34,6 +34,8 @@ class Extractions {
   // extract_all would refuse.
   Extraction& of(const OpenVolume& volume, const extract::Options& options);
   void touch(std::span<const extract::FaceIdentity> names, std::size_t faces);
+  // By the estimate of memory_needs.h.
+  std::int64_t memory_bytes() const;
   // The volume is closed.
   void forget(const std::string& volume);
 

@@ -50,7 +50,8 @@ class ServedTest(FootwallTest):
         self.runtime.mkdir(mode=0o700)
         self.temporary = self.folder / "tmp"
         self.temporary.mkdir()
-        self.env = {"XDG_RUNTIME_DIR": str(self.runtime), "TMPDIR": str(self.temporary)}
+        self.env = {"XDG_RUNTIME_DIR": str(self.runtime), "TMPDIR": str(self.temporary),
+                    "XDG_STATE_HOME": str(self.folder / "state")}
         self.serving = []
         self.addCleanup(self.end_all)
 

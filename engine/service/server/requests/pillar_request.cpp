@@ -108,9 +108,8 @@ v1::Triangulation triangulate(const v1::TriangulateRequest& request, const JobCo
 }
 
 void PillarRequest::received(google::protobuf::io::ZeroCopyInputStream& bytes, std::int64_t size) {
-  remember(size);
   request_ = new_message(*method_.input_type());
-  parse(bytes, *request_);
+  unpack(bytes, size, *request_);
   home().push(shared_from_this());
 }
 
