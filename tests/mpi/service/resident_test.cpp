@@ -385,6 +385,8 @@ TEST_F(ResidentEngine, TellsItsStatusAndEndsByShutdown) {
       EXPECT_GT(rank.process, 0);
       EXPECT_GT(rank.memory_bytes, 0);
       EXPECT_FALSE(rank.host.empty());
+      EXPECT_GE(rank.start_seconds.value_or(-1), 0);
+      EXPECT_LT(rank.start_seconds.value_or(0), 100);
     }
     ASSERT_EQ(status.volumes.size(), 1U);
     EXPECT_EQ(status.volumes[0].checksum, volume);

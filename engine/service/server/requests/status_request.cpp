@@ -33,6 +33,7 @@ void tell_ranks(const ResidentStatus& status, v1::StatusReply& reply) {
     rank.set_host(utf8_of(status.ranks[n].host));
     rank.set_process(status.ranks[n].process);
     rank.set_memory_bytes(status.ranks[n].memory_bytes);
+    if (status.ranks[n].start_seconds) rank.set_start_seconds(*status.ranks[n].start_seconds);
   }
   if (status.ranks.empty()) return;
   reply.set_host(utf8_of(status.ranks.front().host));
