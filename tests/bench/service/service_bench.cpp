@@ -12,6 +12,7 @@
 #include "bench/service/processes.h"
 #include "engine/comm/environment.h"
 #include "engine/service/resident/doorbell.h"
+#include "engine/service/resident/hosts.h"
 #include "engine/service/resident/resident.h"
 #include "engine/service/resident/shared_text.h"
 #include "engine/tasks/workload/grow.h"
