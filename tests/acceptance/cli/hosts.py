@@ -18,7 +18,7 @@ def quiet(*words):
 
 
 def why_not():
-    """Why this machine cannot play two hosts; empty where it can."""
+    """Why this machine cannot play two hosts; empty where it can, and then the first is made."""
     if os.geteuid() != 0:
         return "only root makes network namespaces"
     for tool in ("ip", "unshare", "mount", "mpirun", "hostname"):
@@ -39,19 +39,28 @@ def end_hosts():
         quiet("ip", "netns", "del", name)
 
 
-def make_hosts():
-    """For setUpModule: makes them until the module ends, or skips it."""
-    reason = why_not()
-    if reason:
-        raise unittest.SkipTest(f"skipped: no network namespaces here ({reason})")
-    unittest.addModuleCleanup(end_hosts)
+def join_hosts():
+    """The other host and the wire, after why_not(); raises OSError."""
     for words in (f"netns add {THERE}", f"link add {HERE}v netns {HERE} type veth peer name {THERE}v netns {THERE}",
                   f"-n {HERE} addr add {NETWORK}.1/24 dev {HERE}v", f"-n {THERE} addr add {NETWORK}.2/24 dev {THERE}v",
                   f"-n {HERE} link set lo up", f"-n {THERE} link set lo up",
                   f"-n {HERE} link set {HERE}v up", f"-n {THERE} link set {THERE}v up"):
         done = quiet("ip", *words.split())
         if done.returncode != 0:
-            raise unittest.SkipTest(f"skipped: no network namespaces here (ip {words}: {done.stderr.strip()})")
+            raise OSError(f"ip {words}: {done.stderr.strip()}")
+
+
+def make_hosts():
+    """For setUpModule: makes them until the module ends, or skips it."""
+    reason = why_not()
+    if not reason:
+        unittest.addModuleCleanup(end_hosts)
+        try:
+            join_hosts()
+            return
+        except OSError as error:
+            reason = str(error)
+    raise unittest.SkipTest(f"skipped: no network namespaces here ({reason})")
 
 
 def on_host(name, hidden=("/dev/shm",)):
