@@ -111,15 +111,20 @@ void ServeCommand::run(comm::Communicator& world) {
   std::string token;
   world.collectively([&] {
     if (leads) token = token_from(token_file_, std::move(of_environment));
-    service::require_private_folder(options_.folder);
+    if (leads) service::require_private_folder(options_.folder);
     // Only the first rank ends the engine; the others are told by it.
     if (leads && end_bell < 0) end_bell = ::eventfd(0, EFD_CLOEXEC);
     if (leads && end_bell < 0) throw io_error("make", "an eventfd", errno);
   });
+  // On other hosts, where whoever started the engine made none and will remove none.
+  const bool made =
+      world.collectively([&] { return !leads && service::require_private_folder(options_.folder); });
   for (const int number : {SIGINT, SIGTERM}) handle(number, leads ? ring_end : SIG_IGN);
   handle(SIGPIPE, SIG_IGN);  // whoever started the engine may not listen any longer
 
   service::Resident resident(world, options_);
+  std::error_code ignored;
+  if (made) std::filesystem::remove(options_.folder, ignored);  // the sockets in it were for its start
   if (!leads) {
     world.collectively([] {});  // the server of rank 0
     resident.serve(nullptr);

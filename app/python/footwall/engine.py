@@ -33,7 +33,7 @@ class Engine:
     """A client of an engine. One call at a time in each thread; a script may use it from several.
 
     A volume goes by its name in the project, or by its checksum; None is the project's first. Index space: i, j, k in
-    voxels from the volume's first sample.
+    voxels; of the model and of faces from the survey's first sample, of boxes and isosurfaces from the volume's.
     """
 
     def __init__(self, found, project=None, served=None):

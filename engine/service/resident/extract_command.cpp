@@ -13,6 +13,7 @@
 #include "engine/service/wire.h"
 #include "engine/session/report_json.h"
 #include "storage/base/hash.h"
+#include "storage/survey/moved_lattice.h"
 
 namespace footwall::service {
 namespace {
@@ -28,11 +29,13 @@ struct Numbers {
   extract::Report report;
 };
 
+// As the volume sees them.
 template <typename Wanted>
-std::vector<Face> faces_where(const FaceModel::Faces& model, Wanted&& wanted) {
+std::vector<Face> faces_where(const FaceModel::Faces& model, const OpenVolume& volume, Wanted&& wanted) {
   std::vector<Face> faces;
   for (const auto& [name, triangle] : model) {
-    if (wanted(name)) faces.push_back({name.fault, name.owner, name.n, triangle});
+    if (wanted(name))
+      faces.push_back({name.fault, name.owner, name.n, survey::in_volume(triangle, volume.info.origin)});
   }
   return faces;
 }
@@ -65,8 +68,8 @@ void keep(Numbers& numbers, Wanted&& wanted) {
 }
 
 Numbers all(ResidentState& state, OpenVolume& volume, Extraction& extraction, const JobContext& job) {
-  std::vector<Face> faces =
-      state.world.collectively([&] { return faces_where(state.model.faces(), [](auto&) { return true; }); });
+  std::vector<Face> faces = state.world.collectively(
+      [&] { return faces_where(state.model.faces(), volume, [](auto&) { return true; }); });
   if (!extraction.incremental) return compute(volume, std::move(faces), extraction.options, job);
   auto fresh = std::make_unique<extract::Incremental>(*volume.survey, volume.info.statistics.max_abs,
                                                       extraction.options);
@@ -84,7 +87,8 @@ Numbers changed(ResidentState& state, OpenVolume& volume, Extraction& extraction
     std::vector<Face> faces = state.world.collectively([&] {
       std::set<std::int64_t> faults;
       for (const FaceIdentity& name : extraction.touched) faults.insert(name.fault);
-      return faces_where(state.model.faces(), [&](const auto& name) { return faults.contains(name.fault); });
+      return faces_where(state.model.faces(), volume,
+                         [&](const auto& name) { return faults.contains(name.fault); });
     });
     return compute(volume, std::move(faces), extraction.options, job);
   }
@@ -112,7 +116,7 @@ Numbers some(ResidentState& state, OpenVolume& volume, const extract::Options& o
       asked.insert(name);
       faults.insert(name.fault);
     }
-    return faces_where(state.model.faces(), [&](const auto& name) {
+    return faces_where(state.model.faces(), volume, [&](const auto& name) {
       return whole_faults ? faults.contains(name.fault) : asked.contains(name);
     });
   });

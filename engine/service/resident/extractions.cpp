@@ -4,6 +4,7 @@
 
 #include "engine/extract/computations.h"
 #include "engine/service/resident/memory_needs.h"
+#include "storage/survey/moved_lattice.h"
 
 namespace footwall::service {
 namespace {
@@ -23,7 +24,7 @@ extract::FaceChanges Extraction::changes(const FaceModel::Faces& model) const {
       if (place) changes.removed.push_back(name);
       continue;
     }
-    const extract::Face face{name.fault, name.owner, name.n, now->second};
+    const extract::Face face{name.fault, name.owner, name.n, survey::in_volume(now->second, origin)};
     if (!place) {
       changes.added.push_back(face);
     } else if (*incremental->face(*place) != face) {
@@ -43,6 +44,7 @@ Extraction& Extractions::of(const OpenVolume& volume, const extract::Options& op
   }
   Extraction fresh;
   fresh.volume = volume.checksum;
+  fresh.origin = volume.info.origin;
   fresh.options = options;
   if (!extract::asks_for(options, "offset")) {
     fresh.incremental =

@@ -13,6 +13,7 @@
 #include "engine/service/resident/cancel_line.h"
 #include "engine/service/resident/commands.h"
 #include "engine/service/resident/doorbell.h"
+#include "engine/service/resident/hosts.h"
 #include "engine/service/resident/resident_state.h"
 #include "storage/base/log.h"
 
@@ -52,7 +53,7 @@ comm::Bytes bytes_of(const v1::Command& command) {
 
 // The launcher ends with its first rank; so do ranks that it cannot reach.
 void leave_alone() {
-  log::error("the first rank of this host has died: this one ends, too");
+  log::error("the rank that leads this one has died: this one ends, too");
   std::_Exit(EXIT_FAILURE);
 }
 
@@ -182,9 +183,7 @@ void Resident::State::follow() {
     require(command.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())), "a command of rank 0");
     if (command.has_shutdown()) return;
     require(row_of(command) != nullptr, "a command that ranks know");
-    const JobContext job([this](const Progress&) {
-      if (std::this_thread::get_id() == main) cancels.look();
-    });
+    const JobContext job;
     cancels.begin(job);
     run(
         command, [](const google::protobuf::Message&) {}, job);
@@ -246,12 +245,7 @@ void Resident::State::carry_out_together(const v1::Command& command, Call& call,
   const JobContext job([&](const Progress& progress) {
     if (std::this_thread::get_id() != main) return;
     read_between(queue);
-    try {
-      call.context().report(progress.fraction, progress.phase, progress.amounts);
-    } catch (const Error&) {
-      cancels.look();  // the other hosts have to hear of it before this rank stops
-      throw;
-    }
+    call.context().report(progress.fraction, progress.phase, progress.amounts);
   });
   begun_at = host_clock();
   doorbell.ring();

@@ -112,6 +112,36 @@ class PythonEngine(FootwallTest):
             with self.assertRaises(footwall.Error):
                 wrong()
 
+    def test_a_volume_that_covers_a_part_of_the_survey(self):
+        """The model stays where it is: the numbers are those of the command line, voxels are the survey's."""
+        survey = self.project.survey
+        self.footwall("export", self.project.path, "--raw", "whole")
+        whole = numpy.fromfile(self.path("whole"), "<f4").reshape(survey.shape)
+        lines = [f"{axis.first + 5 * axis.step}:{axis.first + 29 * axis.step}" for axis in (survey.inlines, survey.crosslines)]
+        self.footwall("import", "volume", self.project.path, "whole", "--raw", "--dims", "x".join(map(str, survey.shape)),
+                      "--domain", survey.domain, "--vertical-unit", survey.vertical_unit, "--interval", survey.interval,
+                      "--name", "part", "--inlines", lines[0], "--crosslines", lines[1],
+                      "--z", f"{survey.z0 + 4 * survey.interval}:")
+        self.assertEqual(self.project.volume("part")["origin"], [5, 5, 4])
+        own = self.project.extract(volume="part")
+        told = self.project.statistics()
+        engine = self.started()
+        self.assertEqual(len(engine.status().volumes), 2)
+        numbers = engine.extract("part")
+        row = {name: n for n, name in enumerate(zip(numbers.faults.tolist(), numbers.ids.tolist()))}
+        order = [row[engine.fault_number(fault), face] for fault, face in zip(told.fault.tolist(), told.ids.tolist())]
+        self.assertGreater(numbers["count"].max(), 0)
+        self.assertGreater(numbers["outside"].max(), 0)
+        for name in SAME:
+            numpy.testing.assert_array_equal(numbers[name][order].astype(float), told.values[name], name)
+        face = int(numpy.argmax(numbers["count"]))
+        indices, values = engine.voxels((int(numbers.faults[face]), str(numbers.ids[face])), "part")
+        numpy.testing.assert_array_equal(values, whole[tuple(indices.T)])
+        engine.extract()  # of the whole, beside it
+        self.assertEqual(len(engine.extract("part", changed_only=True)), 0)
+        job = self.footwall("extract", self.project.path, "--volume", "part", "--engine", f"@{engine._folder.name}/engine.json")
+        self.assertEqual(job["checksum"], own["checksum"])
+
     def test_live_numbers_are_those_of_a_whole_extraction(self):
         engine = self.started()
         fault = str(self.project.faults()["name"][0])

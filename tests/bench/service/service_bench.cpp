@@ -14,6 +14,7 @@
 #include "engine/comm/environment.h"
 #include "engine/comm/shared_text.h"
 #include "engine/service/resident/doorbell.h"
+#include "engine/service/resident/hosts.h"
 #include "engine/service/resident/resident.h"
 #include "engine/tasks/process_use.h"
 #include "engine/tasks/workload/grow.h"

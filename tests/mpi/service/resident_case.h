@@ -138,13 +138,15 @@ class ResidentCase : public testing::Test {
 
   // A volume in the folder, made by rank 0. All ranks call it.
   template <typename Value>
-  std::filesystem::path write_volume(const std::string& name, const survey::Index& dims, Value&& value) {
+  std::filesystem::path write_volume(const std::string& name, const survey::Index& dims, Value&& value,
+                                     const survey::Index& origin = {0, 0, 0}) {
     world.collectively([&] {
       if (world.rank() != 0) return;
       volume::WriteOptions how;
       how.geometry.inlines = {1, 1, dims[0]};
       how.geometry.crosslines = {1, 1, dims[1]};
       how.geometry.samples = dims[2];
+      how.origin = origin;
       how.chunk = survey::Index{8, 8, 8};
       volume::write_volume(folder / name, how,
                            [&](const survey::Box& box, std::span<float> values, std::span<std::uint8_t>) {
