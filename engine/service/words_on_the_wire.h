@@ -11,8 +11,12 @@ inline constexpr const char* kFailureMetadata = "footwall-error-bin";
 inline constexpr const char* kCertificateName = "footwall-engine";
 // The environment variable through which an engine gets its token, and a client may.
 inline constexpr const char* kTokenVariable = "FOOTWALL_ENGINE_TOKEN";
-// Clients ask whether the other side is still there so often while a call runs: servers must bear it
-// (GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS).
+// Clients ask whether the other side is still there so often while a call runs, and wait so long for the
+// answer, which the engine's threads give while its ranks compute. Together they are below two seconds; the
+// patience is longer than a pause that means nothing.
+inline constexpr int kPingMilliseconds = 700;
+inline constexpr int kPingPatienceMilliseconds = 1100;
+// What servers must bear (GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS).
 inline constexpr int kShortestPingMilliseconds = 500;
 
 }  // namespace footwall::service

@@ -10,6 +10,8 @@ from .errors import Error
 TOKEN_METADATA = "footwall-token"      # engine/service/words_on_the_wire.h
 FAILURE_METADATA = "footwall-error-bin"
 CERTIFICATE_NAME = "footwall-engine"
+PING_MILLISECONDS = 700                # while a call runs; with the patience below two seconds
+PING_PATIENCE_MILLISECONDS = 1100      # above a pause that means nothing
 LARGEST_MESSAGE = 64 << 20
 LONGEST_FILE = 1 << 20
 

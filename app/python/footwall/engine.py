@@ -18,7 +18,7 @@ from .scene import Camera
 from .serving import Served
 from .tiles import inflated, put_tile
 
-ANSWERED_AT_ONCE = 5.0  # seconds
+ANSWERED_AT_ONCE = 1.9  # seconds
 USUAL = ("count", "mean", "variance", "min", "max", "discontinuity", "contrast")  # as `footwall extract`
 running = weakref.WeakSet()
 
