@@ -24,6 +24,12 @@ def channel_to(connection):
     return grpc.secure_channel(connection.address[len("tcp:"):], credentials, options)
 
 
+def gone(message, hint):
+    error = Error("engine", message, hint)
+    error.gone = True
+    return error
+
+
 def error_of(problem, connection):
     """The Error of a call that failed: what the engine says, or that it is gone."""
     for name, value in problem.trailing_metadata() or ():
@@ -44,11 +50,11 @@ def error_of(problem, connection):
         return Error("unsupported", "the engine cannot do this", "use a client and an engine of the same version")
     if code in (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.DEADLINE_EXCEEDED):
         if "keepalive" in words or code == grpc.StatusCode.DEADLINE_EXCEEDED:
-            return Error("engine", f"the engine at {connection.address} does not answer: it hangs, or the way to it is broken",
-                         "footwall status tells whether it is there; end it and start it again if it is not")
+            return gone(f"the engine at {connection.address} does not answer: it hangs, or the way to it is broken",
+                        "footwall status tells whether it is there; end it and start it again if it is not")
         again = f"start it again on {connection.host}" if connection.host else "start it again"
-        return Error("engine", f"nobody answers at {connection.address}: the engine has ended, or was never there",
-                     again + " with footwall serve")
+        return gone(f"nobody answers at {connection.address}: the engine has ended, or was never there",
+                    again + " with footwall serve")
     return Error("engine", f"the engine says: {words}" if words else f"the call failed: {code.name.lower()}")
 
 

@@ -4,6 +4,7 @@ import json
 import os
 import socket
 import stat
+import tempfile
 
 from .errors import Error
 
@@ -72,6 +73,21 @@ def connection_from(where):
     if "FOOTWALL_ENGINE_CERTIFICATE" not in os.environ:
         raise Error("usage", "there is no certificate for the engine", "FOOTWALL_ENGINE_CERTIFICATE names its file")
     return Connection(where, token, text_of(os.environ["FOOTWALL_ENGINE_CERTIFICATE"]))
+
+
+def home():
+    """The folder of this user alone where connection files are: as engine/service/client/connection_file.cpp."""
+    runtime = os.environ.get("XDG_RUNTIME_DIR", "")
+    path = (os.path.join(runtime, "footwall") if os.path.isdir(runtime)
+            else os.path.join(tempfile.gettempdir(), f"footwall-{os.geteuid()}"))
+    try:
+        os.mkdir(path, 0o700)
+    except FileExistsError:
+        pass
+    known = os.lstat(path)
+    if not stat.S_ISDIR(known.st_mode) or known.st_uid != os.geteuid() or known.st_mode & 0o077:
+        raise Error("invalid", f"{path} is not this user's own folder", "remove it")
+    return path
 
 
 def text_of(path):

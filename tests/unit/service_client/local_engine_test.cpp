@@ -23,8 +23,8 @@ TEST_F(Local, StartsWhenFirstNeededAndEndsWithItsObject) {
     LocalEngine engine(launch(), replay);
     EXPECT_FALSE(engine.is_running());
     EXPECT_EQ(engine.starts(), 0);
-    EXPECT_EQ(engine.client().status().edit(), 10U);
-    process = engine.client().status().process();
+    EXPECT_EQ(engine.client()->status().edit(), 10U);
+    process = engine.client()->status().process();
     EXPECT_TRUE(engine.is_running());
     EXPECT_EQ(engine.starts(), 1);
   }
@@ -34,7 +34,7 @@ TEST_F(Local, StartsWhenFirstNeededAndEndsWithItsObject) {
 
 TEST_F(Local, IsStartedAgainAndReplayed) {
   LocalEngine engine(launch(), replay);
-  const int first = engine.client().status().process();
+  const int first = engine.client()->status().process();
   kill(first, SIGKILL);
   int tries = 0;
   engine.with_engine([&](EngineClient& client) {
@@ -73,7 +73,7 @@ TEST_F(Local, OtherErrorsAreTheCallsOwn) {
 TEST_F(Local, GivesUpAfterThreeDeathsInAMinute) {
   LocalEngine engine(launch(), replay);
   for (int n = 0; n < 3; ++n) {
-    kill(engine.client().status().process(), SIGKILL);
+    kill(engine.client()->status().process(), SIGKILL);
     while (engine.is_running()) std::this_thread::yield();
   }
   try {
@@ -98,7 +98,7 @@ TEST_F(Local, OneThatCannotBeStartedSaysWhy) {
     EXPECT_NE(error.hint().find("there is no library"), std::string::npos);
   }
   unsetenv("FAKE_ENGINE_HOW");
-  EXPECT_EQ(engine.client().status().edit(), 10U);
+  EXPECT_EQ(engine.client()->status().edit(), 10U);
 }
 
 TEST_F(Local, AReplayThatFailsIsTold) {

@@ -48,6 +48,10 @@ class Answers : public Reactor {
     if (told_) throw Error(ErrorCode::kCancelled, "cancelled");
     service::throw_unless_ok(status_, context_);
   }
+  bool done() const {
+    const std::unique_lock lock(mutex_);
+    return done_;
+  }
   void cancel() {
     const std::unique_lock lock(mutex_);
     tell();
@@ -109,7 +113,7 @@ class Answers : public Reactor {
   }
 
   grpc::ClientContext& context_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   Reply message_;
   bool received_ = false;

@@ -26,13 +26,19 @@ class Live final : public EngineClient::LiveStream {
     listener_.join();
   }
 
-  void send(const v1::EditBatch& batch) override {
+  bool offer(const v1::EditBatch& batch) override {
     v1::LiveRequest request;
     *request.mutable_batch() = batch;
-    if (talk_.send(std::move(request))) return;
+    return talk_.send(std::move(request));
+  }
+
+  void send(const v1::EditBatch& batch) override {
+    if (offer(batch)) return;
     finish();
     throw Error(ErrorCode::kEngine, "the engine has ended the stream of edits", "open another one");
   }
+
+  bool has_ended() const override { return talk_.done(); }
 
   void finish() override {
     talk_.send_no_more();
