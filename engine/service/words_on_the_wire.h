@@ -6,6 +6,9 @@ namespace footwall::service {
 // Metadata of every call, and of a call that failed: a v1::Failure in bytes.
 inline constexpr const char* kTokenMetadata = "footwall-token";
 inline constexpr const char* kFailureMetadata = "footwall-error-bin";
+// Metadata of a call that only the engine with this process is to take: one that was started since, at the
+// same address, does not hold what the client thinks.
+inline constexpr const char* kProcessMetadata = "footwall-process";
 // The subject (CN) and DNS name of an engine's certificate, whatever host it runs on: clients pin the
 // certificate itself.
 inline constexpr const char* kCertificateName = "footwall-engine";

@@ -63,9 +63,14 @@ class Caller:
 
     def __init__(self, connection):
         self.connection = connection
+        self.process = 0  # of the engine that alone is to take calls; 0: any
         self._channel = channel_to(connection)
         self._stub = engine_pb2_grpc.EngineStub(self._channel)
-        self._metadata = ((wire.TOKEN_METADATA, connection.token),)
+
+    @property
+    def _metadata(self):
+        of_engine = ((wire.PROCESS_METADATA, str(self.process)),) if self.process else ()
+        return ((wire.TOKEN_METADATA, self.connection.token), *of_engine)
 
     def close(self):
         self._channel.close()

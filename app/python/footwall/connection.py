@@ -9,6 +9,7 @@ import tempfile
 from .errors import Error
 
 TOKEN_METADATA = "footwall-token"      # engine/service/words_on_the_wire.h
+PROCESS_METADATA = "footwall-process"  # the call is for this engine alone
 FAILURE_METADATA = "footwall-error-bin"
 CERTIFICATE_NAME = "footwall-engine"
 PING_MILLISECONDS = 700                # while a call runs; with the patience below two seconds
@@ -22,7 +23,8 @@ class Connection:
     address: str
     token: str = dataclasses.field(repr=False)
     certificate: str = dataclasses.field(default="", repr=False)
-    host: str = ""  # where the engine runs
+    host: str = ""    # where the engine runs
+    process: int = 0  # of its first rank; 0 where that is not known
 
     @property
     def is_here(self):
@@ -47,10 +49,11 @@ def read(path):
         told = json.loads(text)
         if told["footwall_engine"] != 1:
             raise ValueError("another version")
-        found = Connection(told["address"], told["token"], told.get("certificate", ""), told.get("host", ""))
+        found = Connection(told["address"], told["token"], told.get("certificate", ""), told.get("host", ""),
+                           int(told.get("process", 0)))
     except (ValueError, KeyError, TypeError):
         raise Error("format", f"{path} is not the connection file of an engine") from None
-    if not all(isinstance(word, str) for word in dataclasses.astuple(found)):
+    if not all(isinstance(word, str) for word in dataclasses.astuple(found)[:-1]):
         raise Error("format", f"{path} is not the connection file of an engine")
     return found
 

@@ -71,6 +71,7 @@ class Engine:
         self.journal = Journal()
         self.shift = 0  # of this script's edit numbers in the engine that is there now
         self.process = self._told().process
+        self._bind()
 
     @classmethod
     def start(cls, project, ranks=None, threads=None, timeout=60, **how):
@@ -118,6 +119,11 @@ class Engine:
     def _told(self):
         return self.caller.ask("Status", engine_pb2.StatusRequest(), ANSWERED_AT_ONCE)
 
+    def _bind(self):
+        """One that was started since must not answer before it was told what this script has done."""
+        if self._file is not None and self._patience > 0:
+            self.caller.process = self.process
+
     def go_on(self, problem, known):
         """Returns where an engine answers that was started since `known` was its process, or that only was silent for
         a while; it has been told all edits then. Raises the problem where it is a call's own, or nobody answers."""
@@ -132,12 +138,13 @@ class Engine:
                     served, self._served = self._served, self._served.revived()
                     asked = asked if served is self._served else time.monotonic()
                 try:
-                    if self._file is not None:
-                        self._reach(connection.read(self._file))
-                    told = self._told()
-                    if told.process != known or problem.gone:
+                    found = connection.read(self._file)
+                    fresh = Caller(found)  # calls under way keep theirs
+                    told = fresh.ask("Status", engine_pb2.StatusRequest(), ANSWERED_AT_ONCE)
+                    # One that answers before its file is written has not been told the project.
+                    if told.process == found.process and (told.process != known or problem.gone):
                         break
-                    if time.monotonic() - began > TIME_TO_DIE:
+                    if told.process == known and time.monotonic() - began > TIME_TO_DIE:
                         raise problem
                 except Error as still:
                     if still is problem or still.code not in ("engine", "not_found"):
@@ -147,22 +154,18 @@ class Engine:
                     if self._served is not None and still.code == "engine" and time.monotonic() - asked > TIME_TO_HANG:
                         self._served.kill()
                 time.sleep(0.02)
-            self._tell_again(told)
+            self._tell_again(told, fresh)
 
-    def _reach(self, found):
-        if found != self.caller.connection:
-            self.caller.close()
-            self.caller = Caller(found)
-
-    def _tell_again(self, told):
+    def _tell_again(self, told, fresh):
         with self._lock:
             edit = told.edit
             for edits in self.journal.batches():
                 edit += 1
-                self.caller.ask("EditModel", engine_pb2.EditBatch(edit=edit, edits=edits))
+                fresh.ask("EditModel", engine_pb2.EditBatch(edit=edit, edits=edits))
             # Edits that were not answered come again, under numbers that are new there.
             self.shift = edit
-            self.process = told.process
+            self.caller, self.process = fresh, told.process
+            self._bind()
 
     @goes_on
     def status(self):

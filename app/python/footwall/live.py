@@ -75,7 +75,8 @@ class Live:
 
     def _open(self, again):
         """A stream to the engine that is there; again: the batches that it is to be told first."""
-        self._call = self._caller.stream("Live", self._requests(self._waiting, again, self._engine.shift))
+        self._caller, self._shift, self._known = self._engine.caller, self._engine.shift, self._engine.process
+        self._call = self._caller.stream("Live", self._requests(self._waiting, again, self._shift))
 
     def _requests(self, waiting, again, shift):
         yield self._first
@@ -94,10 +95,10 @@ class Live:
     def _listen(self):
         ended = None
         while ended is None:
-            call, shift, known = self._call, self._engine.shift, self._engine.process
+            call, known = self._call, self._known
             try:
                 for reply in call:
-                    self._take(reply, shift)
+                    self._take(reply, self._shift)
                 ended = True
             except grpc.RpcError as problem:
                 ended = self._after(channel.error_of(problem, self._caller.connection), known)
@@ -119,7 +120,6 @@ class Live:
                 former.put_nowait(None)  # nobody waits there any longer
             if self._last:
                 self._waiting.put_nowait(None)
-            self._caller = self._engine.caller
             self._open(tuple(self._unanswered))
         return None
 

@@ -83,6 +83,17 @@ Error no_connection(const Connection& connection, const grpc::Status& status) {
           "start it again" + there + " with footwall serve"};
 }
 
+// Over a connection of its own.
+bool answers(const Connection& connection) {
+  const auto channel = channel_to(connection);
+  const auto end = std::chrono::system_clock::now() + std::chrono::milliseconds(kPingPatienceMilliseconds);
+  grpc::ClientContext context;
+  context.AddMetadata(kTokenMetadata, connection.token);
+  context.set_deadline(end);
+  v1::StatusReply reply;
+  return v1::Engine::NewStub(channel)->Status(&context, {}, &reply).ok();
+}
+
 void take_progress(const v1::Progress& progress, const JobContext& job) {
   job.report(progress.fraction(), progress.phase(), progress.amounts());
 }
@@ -317,7 +328,8 @@ std::unique_ptr<EngineClient::LiveStream> EngineClient::live(
   v1::LiveRequest first;
   first.set_volume(volume);
   *first.mutable_options() = options;
-  return open_live_stream(*state_->stub, state_->connection.token, std::move(first), std::move(answer));
+  return open_live_stream(*state_->stub, state_->connection.token, std::move(first), std::move(answer),
+                          [connection = state_->connection] { return answers(connection); });
 }
 
 std::string EngineClient::run_task(const v1::Task& task, std::span<const InputFile> in,
@@ -327,7 +339,8 @@ std::string EngineClient::run_task(const v1::Task& task, std::span<const InputFi
   grpc::ClientContext context;
   state_->prepare(context);
   Conversation<v1::TaskInput, v1::TaskOutput> talk(
-      context, [&](auto* reactor) { state_->stub->async()->RunTask(&context, reactor); });
+      context, [&](auto* reactor) { state_->stub->async()->RunTask(&context, reactor); },
+      [this] { return answers(state_->connection); });
   // A message is sent only when those before it are nearly through, so that large files are never held whole.
   const auto send = [&](v1::TaskInput message) {
     return talk.send(std::move(message)) && talk.wait_for_room(1, job);

@@ -14,9 +14,11 @@ namespace {
 class Live final : public EngineClient::LiveStream {
  public:
   Live(v1::Engine::Stub& stub, const std::string& token, v1::LiveRequest first,
-       std::function<void(const v1::LiveReply&)> answer)
+       std::function<void(const v1::LiveReply&)> answer, std::function<bool()> still_there)
       : answer_(std::move(answer)),
-        talk_(prepared(token), [&](auto* reactor) { stub.async()->Live(&context_, reactor); }) {
+        talk_(
+            prepared(token), [&](auto* reactor) { stub.async()->Live(&context_, reactor); },
+            std::move(still_there)) {
     talk_.send(std::move(first));
     listener_ = std::thread([this] { listen(); });
   }
@@ -76,8 +78,9 @@ class Live final : public EngineClient::LiveStream {
 
 std::unique_ptr<EngineClient::LiveStream> open_live_stream(v1::Engine::Stub& stub, const std::string& token,
                                                            v1::LiveRequest first,
-                                                           std::function<void(const v1::LiveReply&)> answer) {
-  return std::make_unique<Live>(stub, token, std::move(first), std::move(answer));
+                                                           std::function<void(const v1::LiveReply&)> answer,
+                                                           std::function<bool()> still_there) {
+  return std::make_unique<Live>(stub, token, std::move(first), std::move(answer), std::move(still_there));
 }
 
 }  // namespace footwall::service
