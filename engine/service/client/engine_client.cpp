@@ -73,7 +73,8 @@ Error no_connection(const Connection& connection, const grpc::Status& status) {
   }
   const std::string there = connection.host.empty() ? "" : " on " + connection.host;
   // Somebody has the socket, or a machine is silent.
-  if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED && !says("refused") && !says("No such")) {
+  const bool silent = status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED || says("timed out");
+  if (silent && !says("refused") && !says("No such")) {
     return {ErrorCode::kEngine, "the engine at " + connection.address + " does not answer",
             "it hangs, or the way to it is broken: look at its process" +
                 (connection.process > 0 ? " " + std::to_string(connection.process) : "") + there +

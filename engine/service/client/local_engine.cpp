@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "engine/service/client/detail/call_end.h"
 #include "engine/service/client/edit_journal.h"
 #include "engine/service/client/engine_process.h"
 #include "storage/base/error.h"
@@ -102,7 +103,9 @@ struct LocalEngine::State {
     if (error.code() != ErrorCode::kEngine) return false;
     const std::scoped_lock lock(mutex);
     if (client != of) return true;  // somebody has seen to it
-    if (process && !process->wait_for_end(kTimeToDie)) {
+    // One that was silent for so long is not asked again: it would answer calls whose edits it may have.
+    const bool silent = error.message() == silent_engine().message();
+    if (!silent && process && !process->wait_for_end(kTimeToDie)) {
       try {
         if (client) {
           client->status();
