@@ -53,6 +53,7 @@ class ServeLock {
   }
   ServeLock(const ServeLock&) = delete;
   ServeLock& operator=(const ServeLock&) = delete;
+  const std::string& path() const { return path_; }
 
  private:
   std::string path_;
@@ -99,6 +100,7 @@ class Serving {
         options_.project.empty() ? done_.file : service::default_connection_file(options_.project),
         options_.project.empty() ? done_.file.string() : options_.project.string());
     ConnectionOnDisk file(done_.file);
+    engine_.belongings = {{home_.path()}, done_.file, lock.path()};
     while (!job_.cancelled() && serve_once(file)) {
     }
     done_.seconds = std::chrono::duration<double>(Clock::now() - start).count();

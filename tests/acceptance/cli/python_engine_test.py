@@ -165,6 +165,40 @@ class PythonEngine(FootwallTest):
         held = engine.model(fault)
         self.assertTrue((held.corners == before).all(axis=2).any())
 
+    def test_moves_outlive_the_engine(self):
+        """Whichever of its processes is killed in the middle of a stream of moves."""
+        fault = str(self.project.faults()["name"][0])
+        for kind in ("rank 0", "rank 1", "serve"):
+            with self.subTest(kind=kind):
+                engine = self.started()
+                status = engine.status()
+                victim = {"rank 0": status.process, "rank 1": status.each_rank[1].process,
+                          "serve": engine._served._process.pid}[kind]
+                told = {}
+                with engine.live(compute=["count", "mean"]) as live:
+                    mesh = live.mesh(fault)
+                    for step in range(60):
+                        vertex = step % len(mesh.vertices)
+                        last = live.move(fault, vertex, mesh.vertices[vertex] + [0.25, 0, 0])
+                        if step == 30:
+                            os.kill(victim, signal.SIGKILL)
+                    while True:
+                        answer = live.numbers(60)
+                        for name, count, mean in zip(answer.ids.tolist(), answer["count"], answer["mean"]):
+                            told[name] = (count, mean)
+                        if answer.edit >= last:
+                            break
+                self.assertNotEqual(engine.status().process, status.process)
+                whole = engine.extract(compute=["count", "mean"])
+                of_fault = whole.faults == engine.fault_number(fault)
+                found = {name: numbers for name, *numbers in zip(whole.ids[of_fault].tolist(), whole["count"][of_fault],
+                                                                 whole["mean"][of_fault])}
+                self.assertEqual(len(told), len(mesh.faces))
+                for name, numbers in told.items():
+                    numpy.testing.assert_array_equal(found[name], numbers, name)
+                self.assertEqual(engine.section(sample=5).shape, self.project.survey.shape[:2])
+                engine.close()
+
     def test_isosurfaces_and_pictures(self):
         engine = self.started()
         told = self.footwall("isosurface", self.project.path, "--value", "0.5")

@@ -85,6 +85,34 @@ class Serve(ServedTest):
         self.assert_nothing_is_left(family)
         self.assertEqual(self.shared_memory_of(process.pid), [])
 
+    def test_one_that_hangs_and_one_that_is_gone_are_told_as_such(self):
+        project = self.synthetic()
+        process = self.serve(project, "--connection", "e.json", wait_for="@e.json")
+        rank = self.footwall("status", "@e.json")["process"]
+        os.kill(rank, signal.SIGSTOP)
+        error = self.refused(1, "status", "@e.json")
+        self.assertEqual(error["code"], "engine")
+        self.assertIn("does not answer", error["message"])
+        self.assertIn(str(rank), error["hint"])
+        os.kill(rank, signal.SIGCONT)
+        self.footwall("status", "@e.json", "--wait", "60")
+        # All at once, so that nobody can clean.
+        family = [process.pid, *below(process.pid)]
+        for each in family:
+            os.kill(each, signal.SIGSTOP)
+        for each in family:
+            os.kill(each, signal.SIGKILL)
+        process.wait()
+        self.assertTrue(all(map(is_gone, family)))
+        self.assertIn("has ended", self.refused(1, "status", "@e.json")["message"])
+        self.assertNotEqual(self.shared_memory_of(process.pid), [])
+        process.communicate()
+        again = self.serve(project, "--connection", "e.json", wait_for="@e.json")
+        self.assertEqual(self.shared_memory_of(process.pid), [])
+        self.footwall("stop", "@e.json")
+        self.ended(again)
+        self.assert_nothing_is_left([])
+
     def test_two_projects_are_served_side_by_side(self):
         a, b = self.synthetic("a.footwall"), self.synthetic("b.footwall", seed=4)
         serving = [self.serve(project, wait_for=project, ranks=1) for project in (a, b)]

@@ -65,13 +65,13 @@ class ServedTest(FootwallTest):
         return super().start(*arguments, stdin=stdin, env={**self.env, **(env or {})})
 
     def popen(self, *arguments, **how):
-        return subprocess.Popen([str(BIN / "footwall"), *map(str, arguments)], stdout=subprocess.PIPE,
-                                stderr=subprocess.PIPE, text=True, cwd=self.folder,
-                                env={**os.environ, **self.env}, **how)
+        return subprocess.Popen([str(BIN / "footwall"), *map(str, arguments)], text=True, cwd=self.folder,
+                                env={**os.environ, **self.env},
+                                **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **how})
 
-    def serve(self, *arguments, wait_for="", ranks=2):
-        """A `footwall serve` that answers; wait_for: how status is to find it."""
-        process = self.popen("serve", *arguments, "--ranks", ranks)
+    def serve(self, *arguments, wait_for="", ranks=2, **how):
+        """A `footwall serve` that answers; wait_for: how status is to find it. how: of popen()."""
+        process = self.popen("serve", *arguments, "--ranks", ranks, **how)
         self.serving.append(process)
         if not self.answers(process, wait_for):
             self.fail(f"no engine: {process.communicate()}")
