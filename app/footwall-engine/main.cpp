@@ -1,11 +1,13 @@
 // The MPI program: runs one batch job or scripted workload, makes one attribute volume, isosurface or
-// picture, on all ranks, serves clients, or checks that they work together. Exit 0 done, 1 failed, 2 wrong
+// picture, on all ranks, serves clients, or checks that they work together;
+// or, without MPI, keeps the launcher of others. Exit 0 done, 1 failed, 2 wrong
 // usage, 75 told to make room (SIGTERM, SIGUSR1; run it again and it goes on), 130 cancelled; a failure is
 // printed once.
 #include <signal.h>
 #include <sys/prctl.h>
 
 #include <CLI/CLI.hpp>
+#include <span>
 
 #include "app/footwall-engine/batch_command.h"
 #include "app/footwall-engine/check_command.h"
@@ -18,6 +20,7 @@
 #include "engine/comm/environment.h"
 #include "engine/session/attribute.h"
 #include "engine/session/batch.h"
+#include "engine/session/keeper.h"
 #include "engine/session/lonely_rank.h"
 
 namespace {
@@ -100,6 +103,8 @@ int run(Communicator& world, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const std::span<char* const> arguments(argv, static_cast<std::size_t>(argc));
+  if (footwall::session::is_keeper(arguments)) return footwall::session::keep(arguments);
   // No rank outlives the launcher that started it.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   footwall::app::heed_signals();

@@ -95,6 +95,8 @@ ServeCommand::ServeCommand(CLI::App& app)
   command_->add_option("--listen", listen_, "unix:PATH or tcp:HOST:PORT; port 0: any")->required();
   command_->add_option("--folder", options_.folder, "private, for sockets, certificate and files under way")
       ->required();
+  command_->add_option("--certificates", certificates_,
+                       "private, where key and certificate of TLS stay (default: in --folder)");
   command_->add_option("--volumes", options_.volumes, "where volumes are found by checksum");
   command_->add_option("--threads", options_.threads, "of each rank")->check(CLI::Range(1, 4096));
   command_->add_option("--memory", options_.memory_bytes, "bytes of each host (default: what is free there)")
@@ -109,15 +111,20 @@ void ServeCommand::run(comm::Communicator& world) {
   std::string token;
   world.collectively([&] {
     if (leads) token = token_from(token_file_, std::move(of_environment));
-    service::require_private_folder(options_.folder);
+    if (leads) service::require_private_folder(options_.folder);
     // Only the first rank ends the engine; the others are told by it.
     if (leads && end_bell < 0) end_bell = ::eventfd(0, EFD_CLOEXEC);
     if (leads && end_bell < 0) throw io_error("make", "an eventfd", errno);
   });
+  // On other hosts, where whoever started the engine made none and will remove none.
+  const bool made =
+      world.collectively([&] { return !leads && service::require_private_folder(options_.folder); });
   for (const int number : {SIGINT, SIGTERM}) handle(number, leads ? ring_end : SIG_IGN);
   handle(SIGPIPE, SIG_IGN);  // whoever started the engine may not listen any longer
 
   service::Resident resident(world, options_);
+  std::error_code ignored;
+  if (made) std::filesystem::remove(options_.folder, ignored);  // the sockets in it were for its start
   if (!leads) {
     world.collectively([] {});  // the server of rank 0
     resident.serve(nullptr);
@@ -129,7 +136,7 @@ void ServeCommand::run(comm::Communicator& world) {
     service::ServerOptions how;
     how.listen = listen_;
     how.token = token;
-    how.certificates = options_.folder / "certificate";
+    how.certificates = certificates_.empty() ? options_.folder / "certificate" : certificates_;
     how.scratch = options_.folder / "scratch";
     how.version = FOOTWALL_VERSION;
     server.emplace(

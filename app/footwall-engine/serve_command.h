@@ -1,6 +1,7 @@
 // footwall-engine serve --listen ADDRESS --folder DIR
 #pragma once
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <string>
 
 #include "engine/comm/communicator.h"
@@ -23,6 +24,7 @@ class ServeCommand {
  private:
   CLI::App* command_;
   std::string listen_, token_file_;
+  std::filesystem::path certificates_;
   service::ResidentOptions options_;
 };
 

@@ -62,18 +62,10 @@ void RowFolder::voxels_from(const voxelize::Row& row, std::int64_t column, std::
 void RowFolder::flush() {
   const float* data = block_.data();
   const std::size_t n_places = std::min(used_, capacity_);
-  if (!with_discontinuity_) {
-    for (std::size_t n = 0; n < n_places; ++n) values_[n] = data[places_[n]];
-  } else {
-    const std::int64_t i_stride = block_.strides()[0];
-    const std::int64_t j_stride = block_.strides()[1];
-    for (std::size_t k = 0; k < kNeighbours; ++k) {
-      const float* shifted = data + (static_cast<std::int64_t>(k / 3) - 1) * i_stride +
-                             (static_cast<std::int64_t>(k % 3) - 1) * j_stride;
-      for (std::size_t n = 0; n < n_places; ++n) windows_.value[k][n] = shifted[places_[n]];
-    }
-    std::copy_n(windows_.value[kNeighbours / 2], n_places, values_);
-    fold_windows(windows_, n_places, scale_, partial_.discontinuity);
+  for (std::size_t n = 0; n < n_places; ++n) values_[n] = data[places_[n]];
+  if (with_discontinuity_) {
+    fold_around({data, block_.strides()[0], block_.strides()[1]}, places_, n_places, scale_, windows_,
+                partial_.discontinuity);
   }
   fold_block(values_, n_places, partial_.moments);
   std::copy(places_ + n_places, places_ + used_, places_);

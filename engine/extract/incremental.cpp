@@ -105,7 +105,8 @@ void Incremental::State::look_up(const FaceChanges& changes) {
 
 // The responsible ranks of the dirty faces.
 void Incremental::State::balance() {
-  if (plan.balance.name == "none") {  // looks at nothing but the face itself
+  // Looks at nothing but the face itself; "auto" does the same here.
+  if (plan.balancer->run == balance_strategy("none").run) {
     dirty_ranks = plan.balancer->run(survey.to_balance(plan, dirty, {}));
     return;
   }

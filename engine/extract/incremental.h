@@ -6,7 +6,7 @@
 // An update costs time, memory traffic and messages in proportion to the faces touched, whatever the number
 // of faces: with exchange `reduce`, one message for each pair of ranks that share a touched face, one from
 // each responsible rank to rank 0, and one small Allreduce in which the ranks agree on the outcome. Balancing
-// is the exception: all but `none` look at every face, to know the load that is there.
+// is the exception: all but `none` and `auto` look at every face, to know the load that is there.
 #pragma once
 #include <cstdint>
 #include <memory>

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "engine/comm/calibrate.h"
+#include "engine/comm/shared_text.h"
 #include "engine/extract/computations.h"
 #include "engine/extract/cost/rates_file.h"
 #include "engine/extract/measure_rates.h"
@@ -17,14 +18,6 @@ namespace {
 
 constexpr double kLinkSeconds = 0.25;
 constexpr double kComputingSeconds = 0.08;  // of every core
-
-comm::Bytes bytes_of(const std::string& text) {
-  const auto raw = std::as_bytes(std::span(text));
-  return {raw.begin(), raw.end()};
-}
-std::string text_of(const comm::Bytes& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
 
 // Processors that the ranks may use, over all hosts: on each host those of any of its ranks, or its quota.
 int cores_of(const comm::Communicator& world) {
@@ -103,7 +96,7 @@ MachineRates machine_rates(const comm::Communicator& world, const std::filesyste
     const auto rates = world.rank() == 0 ? read_rates(folder, key) : std::nullopt;
     return rates ? to_text(*rates) : std::string();
   });
-  const std::string text = text_of(world.broadcast(bytes_of(kept), 0));
+  const std::string text = comm::shared_text(world, kept);
   if (!text.empty()) return world.collectively([&] { return rates_from(text); });
   const MachineRates rates = measure(world, key.cores);
   keep(world, folder, key, rates);

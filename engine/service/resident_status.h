@@ -1,6 +1,7 @@
 // What an engine tells of itself, as plain values: filled on the ranks, asked by the server.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@ struct RankFacts {
   std::string host;
   int process = 0;
   std::int64_t memory_bytes = 0;  // resident, as of the last command
+  // From rank 0's ring to this rank's waking for the last command; none on other hosts, whose clocks differ.
+  std::optional<double> start_seconds = std::nullopt;
 };
 
 struct VolumeFacts {

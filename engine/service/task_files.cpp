@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/session/attribute.h"
+#include "engine/session/batch.h"
 #include "engine/session/isosurface_job.h"
 #include "engine/session/job_json.h"
 #include "engine/session/render_job.h"
@@ -23,6 +24,9 @@ using std::filesystem::path;
 constexpr std::string_view kVolume = "@volume/";
 constexpr std::string_view kIn = "@in/";
 constexpr std::string_view kOut = "@out/";
+// What is sent of an earlier run, at the most; the rest is computed again.
+constexpr std::size_t kMostPartFiles = 900;
+constexpr std::uintmax_t kMostPartBytes = std::uintmax_t{512} << 20;
 constexpr std::size_t kFacesLimit = std::size_t{16} << 30;
 constexpr const char* kFaces = "job.faces";
 constexpr const char* kResult = "result.json";
@@ -172,6 +176,15 @@ session::JobFiles unpacked(Job job, Unpacker& paths) {
   return {json_of(job).dump(), {}};
 }
 
+// The parts and the log of an earlier run of a batch job, which has them beside its result.
+void take_up(const path& in, const path& out) {
+  std::vector<path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(in)) {
+    if (session::goes_on_with(entry.path().filename().string())) files.push_back(entry.path());
+  }
+  for (const path& file : files) std::filesystem::rename(file, out / file.filename());
+}
+
 // A batch job keeps its own text: only its three paths change.
 session::JobFiles unpacked_batch(const v1::Task& task, Unpacker& paths) {
   Json json = parsed(task);
@@ -185,9 +198,22 @@ session::JobFiles unpacked_batch(const v1::Task& task, Unpacker& paths) {
     json["output"] = (faces.parent_path().parent_path() / "out").string();
     session::JobFiles files{json.dump(), read_whole_file(faces, kFacesLimit)};
     static_cast<void>(session::parse_job(files, faces.parent_path()));
+    take_up(faces.parent_path(), faces.parent_path().parent_path() / "out");
     return files;
   } catch (const Json::exception& error) {
     throw Error(ErrorCode::kFormat, fmt::format("the task's job is no batch job: {}", error.what()));
+  }
+}
+
+void add_earlier(PackedTask& packed) {
+  std::error_code none;  // no folder yet, no parts
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(packed.out_folder, none)) {
+    std::string name = entry.path().filename().string();
+    if (!entry.is_regular_file() || !is_task_file_name(name) || !session::goes_on_with(name)) continue;
+    bytes += entry.file_size();
+    if (packed.in.size() == kMostPartFiles || bytes > kMostPartBytes) return;
+    packed.in.push_back({std::move(name), entry.path()});
   }
 }
 
@@ -204,6 +230,7 @@ PackedTask pack_batch(const path& job_path, const path& volume) {
   packed.out_folder = job.output;
   packed.result = job.output / kResult;
   packed.out.push_back({kResult, packed.result});
+  add_earlier(packed);
   json["volume"]["path"] = Packer(packed).name_of(file, checksum);
   json["faces"]["path"] = std::string(kIn) + kFaces;
   json["output"] = "@out";

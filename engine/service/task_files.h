@@ -32,6 +32,7 @@ struct PackedTask {
 };
 
 // kind: "batch", "attribute", "isosurface" or "render"; job: its file, as written by session::write_*job().
+// Parts of an earlier run of a batch job are sent along, up to 900 files and 512 MiB.
 // volume: where the volume of a batch job is here; empty: where the job says. Reads the volumes' checksums
 // from their files. Throws Error kUnsupported for another kind, and what reading jobs and volumes throws.
 PackedTask pack_task(const std::string& kind, const std::filesystem::path& job,

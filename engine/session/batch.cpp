@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/comm/shared_text.h"
 #include "engine/extract/balance/area.h"
 #include "engine/extract/extract.h"
 #include "engine/extract/registry.h"
@@ -12,6 +13,7 @@
 #include "engine/session/job.h"
 #include "engine/session/part_file.h"
 #include "engine/session/rank_log.h"
+#include "engine/session/report_json.h"
 #include "engine/session/shared_parts.h"
 #include "storage/base/hash.h"
 #include "storage/base/log.h"
@@ -30,16 +32,10 @@ constexpr double kGroupSeconds = 10;
 constexpr std::size_t kSmallestGroup = 500;
 constexpr const char* kLog = "log.txt";  // beside result.json
 
-std::string shared_text(const comm::Communicator& world, const std::string& text) {
-  const auto raw = std::as_bytes(std::span(text));
-  const comm::Bytes bytes = world.broadcast(comm::Bytes(raw.begin(), raw.end()), 0);
-  return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-}
-
 // Rank 0 has the files, everyone parses them.
 Job shared_job(const comm::Communicator& world, JobFiles files, const std::filesystem::path& path) {
-  files.json = shared_text(world, files.json);
-  files.faces = shared_text(world, files.faces);
+  files.json = comm::shared_text(world, files.json);
+  files.faces = comm::shared_text(world, files.faces);
   return world.collectively([&] { return parse_job(files, std::filesystem::absolute(path).parent_path()); });
 }
 
@@ -77,14 +73,6 @@ void add_phases(const extract::Seconds& group, extract::Seconds& sum) {
   sum.voxelize += group.voxelize;
   sum.exchange += group.exchange;
   sum.compute += group.compute;
-}
-
-Json phases(const extract::Seconds& seconds) {
-  return {{"read", seconds.read},
-          {"balance", seconds.balance},
-          {"voxelize", seconds.voxelize},
-          {"exchange", seconds.exchange},
-          {"compute", seconds.compute}};
 }
 
 // What was computed, over all groups of faults.
@@ -137,12 +125,6 @@ class Totals {
   extract::Report report_;
 };
 
-// Of the slowest rank in each phase.
-Json with_total(Json seconds, double total) {
-  seconds["total"] = total;
-  return seconds;
-}
-
 Json summary(const Job& job, const std::filesystem::path& job_path, const extract::Report& report,
              const SharedParts& parts, const Json& each_rank, double total_seconds) {
   std::vector<extract::Face> faces;
@@ -164,35 +146,18 @@ Json summary(const Job& job, const std::filesystem::path& job_path, const extrac
                      {"faces", fault.faces.size()},
                      {"reused", parts.reused(n)}});
   }
-  return {{"job", job_path.filename().string()},
-          {"ranks", report.ranks},
-          {"threads", report.threads},
-          {"exchange", report.exchange},
-          {"balance", report.balance},
-          {"voxelizer", job.options.voxelizer},
-          {"faces", faces.size()},
-          {"voxels", voxels},
-          {"bytes_sent", report.bytes_sent},
-          {"messages", report.messages},
-          {"load_max_over_mean", report.load_max_over_mean},
-          {"load_deviation", report.load_deviation},
-          {"each_rank", each_rank},
-          {"pillars", job.options.pillars},
-          {"cache_hits", report.cache_hits},
-          {"cache_voxels", report.cache_voxels},
-          {"reason", report.reason},
-          {"predicted",
-           {{"balance", report.predicted.balance},
-            {"voxelize", report.predicted.voxelize},
-            {"exchange", report.predicted.exchange},
-            {"compute", report.predicted.compute},
-            {"total", report.predicted.total}}},
-          {"checksum", to_hex(extract::checksum_of(faces, statistics))},
-          {"seconds", with_total(phases(report.seconds), total_seconds)},
-          {"quickest_seconds", phases(report.quickest)},
-          {"volume", {{"path", job.volume.string()}, {"checksum", job.volume_checksum}}},
-          {"faults", faults},
-          {"parts", files}};
+  // Amounts and seconds are of what was computed, the rest of everything.
+  Json json = report_json(report, job.options);
+  json["job"] = job_path.filename().string();
+  json["faces"] = faces.size();
+  json["voxels"] = voxels;
+  json["seconds"]["total"] = total_seconds;
+  json["each_rank"] = each_rank;
+  json["checksum"] = to_hex(extract::checksum_of(faces, statistics));
+  json["volume"] = {{"path", job.volume.string()}, {"checksum", job.volume_checksum}};
+  json["faults"] = std::move(faults);
+  json["parts"] = std::move(files);
+  return json;
 }
 
 void make_folder(const std::filesystem::path& folder) {
@@ -220,6 +185,7 @@ class Batch {
 
  private:
   void extract_missing(volume::ParallelVolumeReader& reader, SharedParts& parts, Totals& totals);
+  void tell(const std::vector<std::size_t>& written);
   void add(const extract::Seconds& group);
   Json log() {
     phases_.total = omp_get_wtime() - start_;
@@ -240,6 +206,13 @@ void Batch::add(const extract::Seconds& group) {
   add_phases(group, phases_.seconds);
   phases_.seconds.read = group.read;
   phases_.seconds.wait += group.wait;
+}
+
+void Batch::tell(const std::vector<std::size_t>& written) {
+  world_.collectively([&] {
+    if (world_.rank() != 0) return;
+    for (const std::size_t n : written) options_.part_written(part_path(job_.output, job_.faults[n].id));
+  });
 }
 
 void Batch::extract_missing(volume::ParallelVolumeReader& reader, SharedParts& parts, Totals& totals) {
@@ -269,6 +242,7 @@ void Batch::extract_missing(volume::ParallelVolumeReader& reader, SharedParts& p
     const double extracted = omp_get_wtime();
     parts.write(group, result.faces, result.blobs,
                 survey.faults(input, job_.options, context_.part(done, done)));
+    if (options_.part_written) tell(group);
     phases_.write += omp_get_wtime() - extracted;
     add(survey.own_seconds());
     totals.add(result.report);
@@ -331,6 +305,10 @@ void Batch::log_failure(const Error& error) {
 }
 
 }  // namespace
+
+bool goes_on_with(std::string_view name) {
+  return name == kLog || (name.starts_with("fault-") && name.ends_with(".part.h5"));
+}
 
 void run_batch(const comm::Communicator& world, const std::filesystem::path& job_path,
                const JobContext& context, const BatchOptions& options) {

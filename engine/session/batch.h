@@ -14,6 +14,8 @@
 // log.txt beside result.json (rank_log.h), also by a run that was stopped or failed.
 #pragma once
 #include <filesystem>
+#include <functional>
+#include <string_view>
 
 #include "engine/comm/communicator.h"
 #include "engine/session/job.h"
@@ -29,7 +31,12 @@ struct BatchOptions {
   std::filesystem::path volume;  // where the volume is on this machine; empty = where the job says
   int threads = 0;               // of each rank; 0 = as the job says
   bool one_writer = false;       // rank 0 writes all parts: where no folder is seen by all ranks
+  // On rank 0, once a part is on disk. What it throws ends the job on all ranks.
+  std::function<void(const std::filesystem::path&)> part_written;
 };
+
+// Whether a file of this name in the output folder is one that a later run goes on with: a part, or the log.
+bool goes_on_with(std::string_view name);
 
 // Collective; the same Error on every rank. Part files are removed or whole, never half; part n is written by
 // rank n mod ranks, so the output folder must be one that all ranks see, unless there is one writer.

@@ -22,6 +22,11 @@ class DrawnVolume {
   DrawnVolume(comm::Communicator& world, const std::filesystem::path& volume)
       : samples_(world, volume), visible_(samples_) {}
 
+  // Of this rank: samples and surfaces that are kept.
+  std::int64_t memory_bytes() const;
+  // Whether whole() has it already.
+  bool has_whole(float value, const std::string& interleave) const;
+
   VisibleSurface& visible() { return visible_; }
   isosurface::StoredSamples& samples() { return samples_; }
   // This rank's part of a whole isosurface; what it took to make it is 0 where it was there already.

@@ -6,6 +6,7 @@
 #include "engine/session/drawn_pieces.h"
 #include "engine/session/group_options.h"
 #include "engine/session/isosurface_picture.h"
+#include "engine/session/picture_costs.h"
 #include "engine/session/visible_render.h"
 
 namespace footwall::session {
@@ -46,27 +47,30 @@ render::SurfaceLayer draw_whole(comm::Communicator& world, const RenderJob& job,
   render::SurfaceLayer layer =
       composer.compose(world, drawn.surfaces(), job.camera, options, report, context.part(0.75, 0.95));
 
-  Json seconds;
-  const auto slowest = [&](const char* phase, double mine) { seconds[phase] = world.maximum(mine); };
-  slowest("read", read);
-  slowest("extract", busy);
-  slowest("group", report.seconds.group);
-  slowest("project", report.seconds.project);
-  slowest("rasterize", report.seconds.rasterize);
-  slowest("shade", report.seconds.shade);
-  slowest("merge", report.seconds.merge);
-  slowest("gather", report.seconds.gather);
-  result = {{"ranks", world.size()},
-            {"isosurfaces", counts},
-            {"bytes_sent", world.sum(report.bytes)},
-            {"messages", world.sum(report.messages)},
-            {"merged_bytes", world.sum(report.merged_bytes)},
-            {"merged_pixels", world.sum(report.merged_pixels)}};
-  result["seconds"] = seconds;
+  result = picture_costs(world, read, busy, report);
+  result["isosurfaces"] = std::move(counts);
   return layer;
 }
 
 }  // namespace
+
+std::int64_t DrawnVolume::memory_bytes() const {
+  std::int64_t bytes = samples_.memory_bytes() + visible_.sample_bytes();
+  for (const auto& whole : wholes_) {
+    for (const isosurface::Piece& piece : whole->extraction.pieces) {
+      const isosurface::Surface& surface = piece.surface;
+      bytes += static_cast<std::int64_t>(surface.positions.room_bytes() + surface.normals.room_bytes() +
+                                         surface.triangles.room_bytes() + surface.keys.room_bytes());
+    }
+  }
+  return bytes;
+}
+
+bool DrawnVolume::has_whole(float value, const std::string& interleave) const {
+  return std::any_of(wholes_.begin(), wholes_.end(), [&](const auto& each) {
+    return each->value == value && each->interleave == interleave;
+  });
+}
 
 std::shared_ptr<const DrawnVolume::Whole> DrawnVolume::whole(comm::Communicator& world, float value,
                                                              const std::string& interleave, int threads,

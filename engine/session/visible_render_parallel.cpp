@@ -5,6 +5,7 @@
 #include "engine/isosurface/parallel/stored_samples.h"
 #include "engine/render/merge_layers.h"
 #include "engine/session/group_options.h"
+#include "engine/session/picture_costs.h"
 #include "engine/session/visible_render.h"
 #include "engine/session/visible_surface.h"
 
@@ -81,13 +82,10 @@ void VisibleRender::add(std::size_t n) {
   DrawnVisible drawn = volume_of_(wanted.volume).visible().draw(world_, request, groups_, part, after_pass);
   read_ += drawn.read_seconds;
   extract_ += drawn.extract_seconds;
-  const auto add_seconds = [&](double render::ComposeReport::Seconds::*phase) {
-    composed_.seconds.*phase += drawn.composed.seconds.*phase;
-  };
   using Seconds = render::ComposeReport::Seconds;
   for (double Seconds::*phase : {&Seconds::group, &Seconds::project, &Seconds::rasterize, &Seconds::shade,
                                  &Seconds::merge, &Seconds::gather})
-    add_seconds(phase);
+    composed_.seconds.*phase += drawn.composed.seconds.*phase;
   composed_.bytes += drawn.composed.bytes;
   composed_.messages += drawn.composed.messages;
   composed_.merged_bytes += drawn.composed.merged_bytes;
@@ -100,25 +98,10 @@ void VisibleRender::add(std::size_t n) {
 }
 
 render::SurfaceLayer VisibleRender::finish(Json& result) {
-  Json seconds;
-  const auto slowest = [&](const char* phase, double mine) { seconds[phase] = world_.maximum(mine); };
-  slowest("read", read_);
-  slowest("extract", extract_);
-  slowest("group", composed_.seconds.group);
-  slowest("project", composed_.seconds.project);
-  slowest("rasterize", composed_.seconds.rasterize);
-  slowest("shade", composed_.seconds.shade);
-  slowest("merge", composed_.seconds.merge);
-  slowest("gather", composed_.seconds.gather);
-  result = {{"ranks", world_.size()},
-            {"isosurfaces", isosurfaces_},
-            {"mode", name_of(job_.visible->mode)},
-            {"pass_layers", passes_},
-            {"bytes_sent", world_.sum(composed_.bytes)},
-            {"messages", world_.sum(composed_.messages)},
-            {"merged_bytes", world_.sum(composed_.merged_bytes)},
-            {"merged_pixels", world_.sum(composed_.merged_pixels)}};
-  result["seconds"] = seconds;
+  result = picture_costs(world_, read_, extract_, composed_);
+  result["isosurfaces"] = std::move(isosurfaces_);
+  result["mode"] = name_of(job_.visible->mode);
+  result["pass_layers"] = passes_;
   return std::move(layer_);
 }
 

@@ -43,6 +43,9 @@ class VisibleSurface {
   DrawnVisible draw(comm::Communicator& world, isosurface::VisibleRequest request,
                     const render::GroupOptions& groups, const JobContext& context,
                     const AfterPass& after_pass);
+  // Whether mode `depth` has read its part of the volume, and what that takes.
+  bool has_samples() const { return pillars_.has_value(); }
+  std::int64_t sample_bytes() const { return pillars_ ? pillars_->memory_bytes() : 0; }
   // What this rank extracted, of the picture drawn last: in the volume's index space, numbered in the order
   // of the whole surface, no number twice among all ranks.
   std::span<const render::LitSurface> surfaces() const { return surfaces_; }

@@ -16,6 +16,7 @@
 #include "storage/base/log.h"
 #include "storage/base/partial_file.h"
 #include "storage/survey/lattice.h"
+#include "storage/survey/moved_lattice.h"
 
 namespace footwall::tasks {
 namespace {
@@ -25,15 +26,6 @@ using Json = nlohmann::json;
 
 constexpr std::size_t kResultLimit = std::size_t{256} << 20;
 constexpr const char* kJobKey = "job";  // in RunRecord::parameters
-
-// From the volume's index space to the survey's.
-survey::LatticeTriangle in_survey(survey::LatticeTriangle triangle, const survey::Index& origin) {
-  const auto shift = [&](std::size_t axis) {
-    return static_cast<std::int32_t>(origin[axis] * survey::kLatticePerVoxel);
-  };
-  for (survey::LatticePoint& p : triangle) p = {p.i + shift(0), p.j + shift(1), p.k + shift(2)};
-  return triangle;
-}
 
 bool earlier(const survey::LatticeTriangle& a, const survey::LatticeTriangle& b) {
   const auto key = [](const survey::LatticeTriangle& t) {
@@ -50,7 +42,7 @@ project::FaultRun fault_run(const session::Part& part, std::int64_t revision, co
   for (const extract::Face& face : part.faces) {
     run.panels.push_back(face.owner);
     run.numbers.push_back(face.n);
-    run.lattice.push_back(in_survey(face.triangle, origin));
+    run.lattice.push_back(survey::in_survey(face.triangle, origin));
   }
   run.statistics = columns_of(part);
   return run;
@@ -118,7 +110,8 @@ bool shares_a_face(const project::Project& project, const session::Job& job, con
   }
   std::sort(now.begin(), now.end(), earlier);
   return std::any_of(fault.faces.begin(), fault.faces.end(), [&](const extract::Face& face) {
-    return std::binary_search(now.begin(), now.end(), in_survey(face.triangle, job.volume_origin), earlier);
+    return std::binary_search(now.begin(), now.end(), survey::in_survey(face.triangle, job.volume_origin),
+                              earlier);
   });
 }
 

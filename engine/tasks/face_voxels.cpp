@@ -12,7 +12,7 @@
 #include "engine/tasks/triangulate.h"
 #include "engine/voxelize/registry.h"
 #include "storage/base/error.h"
-#include "storage/survey/lattice.h"
+#include "storage/survey/moved_lattice.h"
 
 namespace footwall::tasks {
 namespace {
@@ -69,15 +69,8 @@ void read_fault(const project::FaultRun& run, const std::string& fault, const pr
   const survey::Box box{{0, 0, 0}, parameters.dims};
   for (std::size_t f = 0; f < run.lattice.size(); ++f) {
     job.check();
-    survey::LatticeTriangle triangle = run.lattice[f];
-    for (survey::LatticePoint& p : triangle) {
-      const auto back = [&](std::size_t axis) {
-        return static_cast<std::int32_t>(parameters.origin[axis] * survey::kLatticePerVoxel);
-      };
-      p = {p.i - back(0), p.j - back(1), p.k - back(2)};
-    }
     rows.clear();
-    voxelizer->rows(triangle, box, rows);
+    voxelizer->rows(survey::in_volume(run.lattice[f], parameters.origin), box, rows);
     const std::uint64_t first = f == 0 ? 0 : kept.ends[f - 1];
     reader.read(std::span(kept.bytes).subspan(first, kept.ends[f] - first), rows, values);
     voxels.clear();

@@ -5,6 +5,7 @@
 #include "engine/tasks/triangulate.h"
 #include "storage/base/error.h"
 #include "storage/base/log.h"
+#include "storage/survey/moved_lattice.h"
 
 namespace footwall::tasks {
 
@@ -32,10 +33,8 @@ std::vector<extract::Face> fault_faces(const project::FaultRecord& fault, const 
   points.reserve(mesh.vertices.size());
   for (const project::MeshVertex& vertex : mesh.vertices) {
     try {
-      const survey::IndexPoint at = lattice.geometry().index_of(vertex.position);
-      points.push_back(
-          lattice.from_index({at.i - static_cast<double>(origin[0]), at.j - static_cast<double>(origin[1]),
-                              at.k - static_cast<double>(origin[2])}));
+      const survey::LatticePoint in_survey = lattice.from_world(vertex.position);
+      points.push_back(survey::moved(in_survey, {-origin[0], -origin[1], -origin[2]}));
     } catch (const Error& error) {
       throw Error(
           error.code(),

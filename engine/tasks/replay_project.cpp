@@ -15,12 +15,6 @@ void open_volumes(const project::Project& project, service::EngineClient& engine
   const auto count = static_cast<double>(volumes.size());
   for (std::size_t n = 0; n < volumes.size(); ++n) {
     const project::VolumeRecord& volume = volumes[n];
-    if (volume.origin != volumes.front().origin) {
-      done.notices.push_back(
-          fmt::format("volume {} is left out: it begins elsewhere in the survey than volume {}", volume.name,
-                      volumes.front().name));
-      continue;
-    }
     v1::VolumeName name;
     name.set_checksum(volume.checksum);
     name.set_path(std::filesystem::absolute(project.volume_path(volume)).string());
@@ -48,8 +42,6 @@ Replayed replay_project(project::Project& project, service::EngineClient& engine
   const std::optional<survey::Geometry> survey = project.survey();
   if (!survey) return done;
   const survey::Lattice lattice(*survey);
-  const std::vector<project::VolumeRecord> volumes = project.volumes();
-  const survey::Index origin = volumes.empty() ? survey::Index{0, 0, 0} : volumes.front().origin;
   MeshNotes notes;
   const std::vector<project::FaultRecord> faults = project.faults();
   for (std::size_t n = 0; n < faults.size(); ++n) {
@@ -66,7 +58,7 @@ Replayed replay_project(project::Project& project, service::EngineClient& engine
     batch.set_edit(edit);
     v1::ReplaceFault& replace = *batch.add_edits()->mutable_replace();
     replace.set_fault(faults[n].id);
-    *replace.mutable_faces() = service::message_of(fault_faces(faults[n], *mesh, lattice, origin));
+    *replace.mutable_faces() = service::message_of(fault_faces(faults[n], *mesh, lattice, {0, 0, 0}));
     done.faces = engine.edit(batch).faces();
   }
   for (const std::string& skipped : notes.skipped) done.notices.push_back("fault is left out: " + skipped);

@@ -16,10 +16,8 @@ struct Replayed {
   std::vector<std::string> notices;  // what was left out, and why
 };
 
-// The model is replaced as a whole. Faces stand in the index space of the project's first volume; volumes
-// that begin elsewhere in the survey are left out. A volume that cannot be opened and a fault that cannot be
-// made a surface are noted. The project is only read. Throws kEngine, kCancelled, and what the engine says of
-// the model.
+// The model is replaced as a whole. A volume that cannot be opened and a fault that cannot be made a surface
+// are noted. The project is only read. Throws kEngine, kCancelled, and what the engine says of the model.
 Replayed replay_project(project::Project& project, service::EngineClient& engine, const JobContext& job);
 
 }  // namespace footwall::tasks

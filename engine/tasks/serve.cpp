@@ -53,6 +53,7 @@ class ServeLock {
   }
   ServeLock(const ServeLock&) = delete;
   ServeLock& operator=(const ServeLock&) = delete;
+  const std::string& path() const { return path_; }
 
  private:
   std::string path_;
@@ -83,7 +84,10 @@ class Serving {
     done_.file = options.connection.empty() ? service::default_connection_file(options.project)
                                             : std::filesystem::absolute(options.connection);
     engine_ = options.engine;
-    engine_.token = service::random_token();
+    engine_.token = service::told_token();
+    if (engine_.token.empty()) engine_.token = service::random_token();
+    // So that clients can go on after a stop and a start.
+    if (engine_.listen.starts_with("tcp:")) engine_.certificates = service::certificate_folder();
     engine_.project = options.project.empty() ? "" : std::filesystem::absolute(options.project).string();
     // The same address after each start.
     if (engine_.listen == "unix") engine_.listen = "unix:" + (home_.path() / "engine.sock").string();
@@ -96,6 +100,7 @@ class Serving {
         options_.project.empty() ? done_.file : service::default_connection_file(options_.project),
         options_.project.empty() ? done_.file.string() : options_.project.string());
     ConnectionOnDisk file(done_.file);
+    engine_.belongings = {{home_.path()}, done_.file, lock.path()};
     while (!job_.cancelled() && serve_once(file)) {
     }
     done_.seconds = std::chrono::duration<double>(Clock::now() - start).count();

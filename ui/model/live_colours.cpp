@@ -130,7 +130,6 @@ void LiveColours::say(EngineLink::State state, const std::string& text) {
 
 void LiveColours::work() {
   std::unique_ptr<service::LocalEngine> local;
-  std::unique_ptr<service::EngineClient> remote;
   for (;;) {
     std::unique_lock lock(mutex_);
     wake_.wait(lock, [this] { return ends_ || wanted_; });
@@ -140,15 +139,14 @@ void LiveColours::work() {
     lock.unlock();
     try {
       say(EngineLink::State::kStarting);
-      service::EngineClient* client = nullptr;
+      std::shared_ptr<service::EngineClient> client;
       if (given_) {
-        remote = std::make_unique<service::EngineClient>(*given_);
-        client = remote.get();
+        client = std::make_shared<service::EngineClient>(*given_);
       } else {
         session::LaunchOptions launch;
         launch.ranks = ranks_;
         if (local == nullptr) local = std::make_unique<service::LocalEngine>(launch, service::LocalEngine::Replay{});
-        client = &local->client(job);
+        client = local->client(job);
       }
       const int ranks = client->status().ranks();
       lock.lock();
@@ -159,7 +157,6 @@ void LiveColours::work() {
       say(EngineLink::State::kOff);
       if (!given_) local.reset();
     } catch (const Error& error) {
-      remote.reset();
       lock.lock();
       reached_.reset();
       const bool told_to = ends_ || !wanted_;

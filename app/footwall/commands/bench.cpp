@@ -4,6 +4,7 @@
 #include "app/footwall/commands/bench_isosurface.h"
 #include "app/footwall/commands/bench_quality.h"
 #include "app/footwall/commands/bench_render.h"
+#include "app/footwall/commands/bench_service.h"
 #include "app/footwall/commands/bench_topology.h"
 #include "app/footwall/commands/bench_visible.h"
 #include "app/footwall/commands/commands.h"
@@ -17,6 +18,7 @@ void add_bench(console::Program& program) {
   add_bench_isosurface(program, group);
   add_bench_quality(program, group);
   add_bench_render(program, group);
+  add_bench_service(program, group);
   add_bench_topology(program, group);
   add_bench_visible(program, group);
   add_bench_voxelize(program, group);

@@ -35,7 +35,8 @@ service::Connection running_engine(const std::string& words) {
     const std::string served = served_by_this_user();
     throw Error(ErrorCode::kNotFound,
                 words.empty() ? "no engine runs here without a project" : "no engine serves " + words,
-                served.empty() ? "footwall serve starts one" : "these run: " + served);
+                (served.empty() ? "footwall serve starts one" : "these run: " + served) +
+                    "; one that was started with --connection FILE is found as @FILE");
   }
 }
 

@@ -68,7 +68,8 @@ std::string in_words(const service::Connection& connection, const std::filesyste
   std::string text = fmt::format("serving at {}", connection.address);
   if (!connection.fingerprint.empty()) text += fmt::format("\nfingerprint {}", connection.fingerprint);
   if (with_project)
-    text += fmt::format("\nholds {} volumes, {} faces", replayed.volumes.size(), replayed.faces);
+    text += fmt::format("\nholds {} volume{}, {} faces", replayed.volumes.size(),
+                        replayed.volumes.size() == 1 ? "" : "s", replayed.faces);
   return text + fmt::format("\nuse it with --engine @{}", file.string());
 }
 

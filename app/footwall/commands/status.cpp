@@ -33,10 +33,13 @@ console::Json json_of(const v1::StatusReply& status, const service::Connection& 
                         {"state_hash", status.state_hash()}, {"each_rank", console::Json::array()},
                         {"volumes", console::Json::array()}, {"jobs", console::Json::array()}};
   for (const v1::RankStatus& rank : status.each_rank()) {
-    json["each_rank"].push_back({{"rank", rank.rank()},
-                                 {"host", rank.host()},
-                                 {"process", rank.process()},
-                                 {"memory_bytes", rank.memory_bytes()}});
+    json["each_rank"].push_back(
+        {{"rank", rank.rank()},
+         {"host", rank.host()},
+         {"process", rank.process()},
+         {"memory_bytes", rank.memory_bytes()},
+         {"start_seconds",
+          rank.has_start_seconds() ? console::Json(rank.start_seconds()) : console::Json()}});
   }
   for (const v1::OpenVolumeInfo& volume : status.volumes()) {
     const v1::Index& dims = volume.dims();

@@ -11,18 +11,23 @@ from .errors import Error  # noqa: E402
 
 
 def channel_to(connection):
-    remote = connection.address.startswith("tcp:")
     options = [("grpc.max_receive_message_length", wire.LARGEST_MESSAGE),
                ("grpc.max_send_message_length", wire.LARGEST_MESSAGE),
                ("grpc.use_local_subchannel_pool", 1), ("grpc.enable_http_proxy", 0),
                ("grpc.initial_reconnect_backoff_ms", 100), ("grpc.max_reconnect_backoff_ms", 500),
-               ("grpc.keepalive_time_ms", 900 if remote else 10000),
-               ("grpc.keepalive_timeout_ms", 1000 if remote else 20000), ("grpc.http2.max_pings_without_data", 0)]
-    if not remote:
+               ("grpc.keepalive_time_ms", wire.PING_MILLISECONDS),
+               ("grpc.keepalive_timeout_ms", wire.PING_PATIENCE_MILLISECONDS), ("grpc.http2.max_pings_without_data", 0)]
+    if not connection.address.startswith("tcp:"):
         return grpc.insecure_channel(connection.address, options)
     credentials = grpc.ssl_channel_credentials(connection.certificate.encode())
     options.append(("grpc.ssl_target_name_override", wire.CERTIFICATE_NAME))
     return grpc.secure_channel(connection.address[len("tcp:"):], credentials, options)
+
+
+def gone(message, hint):
+    error = Error("engine", message, hint)
+    error.gone = True
+    return error
 
 
 def error_of(problem, connection):
@@ -44,9 +49,12 @@ def error_of(problem, connection):
     if code == grpc.StatusCode.UNIMPLEMENTED:
         return Error("unsupported", "the engine cannot do this", "use a client and an engine of the same version")
     if code in (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.DEADLINE_EXCEEDED):
+        if "keepalive" in words or code == grpc.StatusCode.DEADLINE_EXCEEDED:
+            return gone(f"the engine at {connection.address} does not answer: it hangs, or the way to it is broken",
+                        "footwall status tells whether it is there; end it and start it again if it is not")
         again = f"start it again on {connection.host}" if connection.host else "start it again"
-        return Error("engine", f"nobody answers at {connection.address}: the engine has ended, or was never there",
-                     again + " with footwall serve")
+        return gone(f"nobody answers at {connection.address}: the engine has ended, or was never there",
+                    again + " with footwall serve")
     return Error("engine", f"the engine says: {words}" if words else f"the call failed: {code.name.lower()}")
 
 
@@ -55,9 +63,14 @@ class Caller:
 
     def __init__(self, connection):
         self.connection = connection
+        self.process = 0  # of the engine that alone is to take calls; 0: any
         self._channel = channel_to(connection)
         self._stub = engine_pb2_grpc.EngineStub(self._channel)
-        self._metadata = ((wire.TOKEN_METADATA, connection.token),)
+
+    @property
+    def _metadata(self):
+        of_engine = ((wire.PROCESS_METADATA, str(self.process)),) if self.process else ()
+        return ((wire.TOKEN_METADATA, self.connection.token), *of_engine)
 
     def close(self):
         self._channel.close()

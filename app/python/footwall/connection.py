@@ -4,12 +4,16 @@ import json
 import os
 import socket
 import stat
+import tempfile
 
 from .errors import Error
 
 TOKEN_METADATA = "footwall-token"      # engine/service/words_on_the_wire.h
+PROCESS_METADATA = "footwall-process"  # the call is for this engine alone
 FAILURE_METADATA = "footwall-error-bin"
 CERTIFICATE_NAME = "footwall-engine"
+PING_MILLISECONDS = 700                # while a call runs; with the patience below two seconds
+PING_PATIENCE_MILLISECONDS = 1100      # above a pause that means nothing
 LARGEST_MESSAGE = 64 << 20
 LONGEST_FILE = 1 << 20
 
@@ -19,7 +23,8 @@ class Connection:
     address: str
     token: str = dataclasses.field(repr=False)
     certificate: str = dataclasses.field(default="", repr=False)
-    host: str = ""  # where the engine runs
+    host: str = ""    # where the engine runs
+    process: int = 0  # of its first rank; 0 where that is not known
 
     @property
     def is_here(self):
@@ -44,10 +49,11 @@ def read(path):
         told = json.loads(text)
         if told["footwall_engine"] != 1:
             raise ValueError("another version")
-        found = Connection(told["address"], told["token"], told.get("certificate", ""), told.get("host", ""))
+        found = Connection(told["address"], told["token"], told.get("certificate", ""), told.get("host", ""),
+                           int(told.get("process", 0)))
     except (ValueError, KeyError, TypeError):
         raise Error("format", f"{path} is not the connection file of an engine") from None
-    if not all(isinstance(word, str) for word in dataclasses.astuple(found)):
+    if not all(isinstance(word, str) for word in dataclasses.astuple(found)[:-1]):
         raise Error("format", f"{path} is not the connection file of an engine")
     return found
 
@@ -70,6 +76,21 @@ def connection_from(where):
     if "FOOTWALL_ENGINE_CERTIFICATE" not in os.environ:
         raise Error("usage", "there is no certificate for the engine", "FOOTWALL_ENGINE_CERTIFICATE names its file")
     return Connection(where, token, text_of(os.environ["FOOTWALL_ENGINE_CERTIFICATE"]))
+
+
+def home():
+    """The folder of this user alone where connection files are: as engine/service/client/connection_file.cpp."""
+    runtime = os.environ.get("XDG_RUNTIME_DIR", "")
+    path = (os.path.join(runtime, "footwall") if os.path.isdir(runtime)
+            else os.path.join(tempfile.gettempdir(), f"footwall-{os.geteuid()}"))
+    try:
+        os.mkdir(path, 0o700)
+    except FileExistsError:
+        pass
+    known = os.lstat(path)
+    if not stat.S_ISDIR(known.st_mode) or known.st_uid != os.geteuid() or known.st_mode & 0o077:
+        raise Error("invalid", f"{path} is not this user's own folder", "remove it")
+    return path
 
 
 def text_of(path):

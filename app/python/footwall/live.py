@@ -11,6 +11,7 @@ import numpy
 from . import channel
 from ._messages import engine_pb2
 from .errors import Error
+from .journal import told_again
 from .numbers import LATTICE, Model, Numbers, names_of, on_lattice
 
 WAITING_EDITS = 1000  # that the engine has not taken yet
@@ -39,14 +40,18 @@ class Live:
         self._engine = engine
         self._caller = caller
         self._waiting = queue.Queue(WAITING_EDITS)
+        self._unanswered = collections.deque()  # (number, edits)
         self._answers = collections.deque()
-        self._changed = threading.Condition()
+        self._changed = threading.Condition(threading.RLock())
+        self._sending = threading.Lock()
+        self._last = False
+        self._answered = 0
         self._ended = None  # how: None while it runs, True, or an Error
         self._meshes = {}
         self._first = engine_pb2.LiveRequest(volume=volume, options=options)
 
     def __enter__(self):
-        self._call = self._caller.stream("Live", self._requests())
+        self._open(())
         self._listener = threading.Thread(target=self._listen, daemon=True)
         self._listener.start()
         return self
@@ -55,45 +60,100 @@ class Live:
         """No more edits; waits for the answers on the way, unless an exception leaves the block."""
         if kind is not None:
             self._call.cancel()
+        with self._changed:
+            self._last = True
+            waiting = self._waiting
         try:
-            self._waiting.put(None, timeout=10)
+            waiting.put(None, timeout=10)
         except queue.Full:
             self._call.cancel()
         self._listener.join(timeout=60)
         self._call.cancel()
+        self._keep_answered(also_newest=True)
         if kind is None and isinstance(self._ended, Error):
             raise self._ended
 
-    def _requests(self):
+    def _open(self, again):
+        """A stream to the engine that is there; again: the batches that it is to be told first."""
+        self._caller, self._shift, self._known = self._engine.caller, self._engine.shift, self._engine.process
+        self._call = self._caller.stream("Live", self._requests(self._waiting, again, self._shift))
+
+    def _requests(self, waiting, again, shift):
         yield self._first
+        for number, edits in again:
+            yield self._request(number + shift, told_again(edits))
         while True:
-            batch = self._waiting.get()
+            batch = waiting.get()
             if batch is None:
                 return
-            yield engine_pb2.LiveRequest(batch=batch)
+            yield self._request(batch[0] + shift, batch[1])
+
+    @staticmethod
+    def _request(number, edits):
+        return engine_pb2.LiveRequest(batch=engine_pb2.EditBatch(edit=number, edits=edits))
 
     def _listen(self):
-        ended = True
-        try:
-            for reply in self._call:
-                with self._changed:
-                    self._answers.append(reply)
-                    self._changed.notify_all()
-        except grpc.RpcError as problem:
-            ended = channel.error_of(problem, self._caller.connection)
+        ended = None
+        while ended is None:
+            call, known = self._call, self._known
+            try:
+                for reply in call:
+                    self._take(reply, self._shift)
+                ended = True
+            except grpc.RpcError as problem:
+                ended = self._after(channel.error_of(problem, self._caller.connection), known)
         with self._changed:
             self._ended = ended
             self._changed.notify_all()
 
-    def _send(self, *edits):
-        if isinstance(self._ended, Error):
-            raise self._ended
-        number = self._engine.next_edit()
+    def _after(self, problem, known):
+        """How the stream ends with this problem; None where another one was opened, since the engine was started
+        again."""
         try:
-            self._waiting.put(engine_pb2.EditBatch(edit=number, edits=edits), timeout=10)
-        except queue.Full:
-            raise Error("engine", "the engine takes no more edits", "wait for numbers now and then") from None
-        return number
+            self._keep_answered(also_newest=False)
+            self._engine.go_on(problem, known)
+        except Error as error:
+            return error
+        with self._changed:
+            former, self._waiting = self._waiting, queue.Queue(WAITING_EDITS)
+            if not former.full():
+                former.put_nowait(None)  # nobody waits there any longer
+            if self._last:
+                self._waiting.put_nowait(None)
+            self._open(tuple(self._unanswered))
+        return None
+
+    def _take(self, reply, shift):
+        reply.edit -= min(shift, reply.edit)
+        with self._changed:
+            if reply.HasField("failure"):
+                self._unanswered = collections.deque(each for each in self._unanswered if each[0] != reply.edit)
+            else:
+                self._answered = reply.edit
+            self._answers.append(reply)
+            self._changed.notify_all()
+        self._keep_answered(also_newest=False)
+
+    def _keep_answered(self, also_newest):
+        """The engine has them: a fresh one is told. More of the newest answer may come."""
+        with self._changed:
+            while self._unanswered and self._unanswered[0][0] < self._answered + also_newest:
+                self._engine.journal.add(self._unanswered.popleft()[1])
+
+    def _send(self, *edits):
+        with self._sending:
+            number = self._engine.next_edit()
+            with self._changed:
+                if isinstance(self._ended, Error):
+                    raise self._ended
+                self._unanswered.append((number, edits))
+                waiting = self._waiting
+            try:
+                waiting.put((number, edits), timeout=10)
+            except queue.Full:
+                if waiting is self._waiting:
+                    raise Error("engine", "the engine takes no more edits", "wait for numbers now and then") from None
+            return number
 
     def mesh(self, fault):
         """The fault (number or name) as the engine holds it, with the moves made here. Vertices at one place are

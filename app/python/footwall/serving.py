@@ -21,6 +21,7 @@ class Served:
 
     def __init__(self, words, file):
         self.file = file
+        self._command = words
         self._words = tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace")
         self._process = None
         self._problem = None
@@ -50,6 +51,22 @@ class Served:
             if time.monotonic() > deadline:
                 raise Error("engine", f"the engine was not ready within {seconds} seconds", self._last_words(None))
             time.sleep(0.02)
+
+    def revived(self):
+        """The one that runs, which is another one where this was killed. Raises Error with its last words where it
+        has given up."""
+        status = self._process.poll()
+        if status is None:
+            return self
+        if status >= 0:
+            raise Error("engine", "the engine has ended: " + self._last_words(status), "start another one")
+        self._words.close()
+        return Served(self._command, self.file)
+
+    def kill(self):
+        """Its keeper ends what it leaves."""
+        self._process.kill()
+        self._process.wait()
 
     def _last_words(self, status):
         self._words.seek(0)

@@ -41,4 +41,15 @@ struct Windows {
 // value is so far above the max_abs behind `scale` that the fixed point would overflow.
 void fold_windows(Windows& windows, std::size_t n, double scale, Discontinuity& into);
 
+// Values in memory, and how far apart neighbours along inlines and crosslines stand.
+struct Surroundings {
+  const float* data = nullptr;
+  std::int64_t i_stride = 0;
+  std::int64_t j_stride = 0;
+};
+// The same for n <= kWindowBlock voxels by their places in `in.data`, which must have their neighbours, too.
+// Windows without a null are folded where they stand; `room` is for the others.
+void fold_around(const Surroundings& in, const std::int64_t* places, std::size_t n, double scale,
+                 Windows& room, Discontinuity& into);
+
 }  // namespace footwall::extract

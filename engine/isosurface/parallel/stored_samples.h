@@ -25,6 +25,10 @@ class StoredSamples {
   FieldOf field_of() {
     return [this](const survey::Box& samples) { return read(samples); };
   }
+  // Of the pyramid, and of the box that was read last.
+  std::int64_t memory_bytes() const;
+  // Gives the last box back; the next read() makes room anew.
+  void release() { values_.release(); }
   std::int64_t bytes_read() const { return bytes_read_; }  // whole chunks
 
  private:

@@ -43,6 +43,11 @@ StoredSamples::StoredSamples(comm::Communicator& world, const std::filesystem::p
   bricks_ = {level_.dims, level_.min, level_.max, level_.has_null};
 }
 
+std::int64_t StoredSamples::memory_bytes() const {
+  return static_cast<std::int64_t>(values_.room_bytes() + level_.min.size() * sizeof(float) +
+                                   level_.max.size() * sizeof(float) + level_.has_null.size());
+}
+
 Field StoredSamples::read(const survey::Box& samples) {
   values_.resize_uninitialised(static_cast<std::size_t>(samples.count()));
   reader_.read_independent(samples, values_.all());

@@ -93,10 +93,7 @@ Connection from_environment(const std::string& address) {
   }
   Connection connection;
   connection.address = address;
-  connection.token = variable(kTokenVariable);
-  const std::string token_file = variable("FOOTWALL_ENGINE_TOKEN_FILE");
-  if (connection.token.empty() && !token_file.empty())
-    connection.token = text::trimmed(text::split(read_secret(token_file, "token file"), '\n').front());
+  connection.token = told_token();
   if (connection.token.empty()) {
     throw Error(ErrorCode::kUsage, "the token of the engine at " + address + " is not given",
                 "set FOOTWALL_ENGINE_TOKEN_FILE or FOOTWALL_ENGINE_TOKEN, or give --engine @FILE");
@@ -181,6 +178,22 @@ Connection read_connection(const std::filesystem::path& path) {
 Connection connection_from(const std::string& words) {
   if (words.starts_with("@")) return read_connection(words.substr(1));
   return from_environment(words);
+}
+
+std::string told_token() {
+  std::string token = variable(kTokenVariable);
+  const std::string file = variable("FOOTWALL_ENGINE_TOKEN_FILE");
+  if (token.empty() && !file.empty())
+    token = text::trimmed(text::split(read_secret(file, "token file"), '\n').front());
+  return token;
+}
+
+std::filesystem::path certificate_folder() {
+  // As the XDG base directory specification has it: what is not absolute is ignored.
+  const std::filesystem::path state = variable("XDG_STATE_HOME");
+  if (state.is_absolute()) return state / "footwall" / "engine";
+  const std::filesystem::path home = variable("HOME");
+  return home.is_absolute() ? home / ".local" / "state" / "footwall" / "engine" : std::filesystem::path();
 }
 
 std::filesystem::path default_connection_file(const std::filesystem::path& project) {

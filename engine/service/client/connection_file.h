@@ -26,6 +26,11 @@ Connection read_connection(const std::filesystem::path& path);
 // "@FILE", or an address with the token in FOOTWALL_ENGINE_TOKEN or the file that FOOTWALL_ENGINE_TOKEN_FILE
 // names; for "tcp:" FOOTWALL_ENGINE_CERTIFICATE names the engine's certificate. Throws as above, kUsage.
 Connection connection_from(const std::string& words);
+// The token that the environment tells, as above; empty where it tells none. Throws kNotFound, kInvalid.
+std::string told_token();
+// Where engines of this user keep key and certificate from start to start: $XDG_STATE_HOME/footwall/engine,
+// or else ~/.local/state/footwall/engine. Empty where there is no home.
+std::filesystem::path certificate_folder();
 // Where `serve` writes, and `status` and `stop` look, when no file is named: in $XDG_RUNTIME_DIR/footwall
 // (else a private folder of this user under the temporary home), one for each project, one for none.
 std::filesystem::path default_connection_file(const std::filesystem::path& project);

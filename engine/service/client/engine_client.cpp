@@ -5,8 +5,11 @@
 #include <grpc/support/log.h>
 #include <grpcpp/grpcpp.h>
 
+#include <condition_variable>
 #include <cstdlib>
 #include <fstream>
+#include <mutex>
+#include <optional>
 #include <thread>
 
 #include "engine/service/client/detail/answers.h"
@@ -19,7 +22,7 @@
 namespace footwall::service {
 namespace {
 
-constexpr std::chrono::seconds kPatience{2};
+constexpr std::chrono::milliseconds kPatience{1900};
 constexpr int kLargestMessage = 64 << 20;
 constexpr std::size_t kFilePiece = std::size_t{1} << 20;
 
@@ -35,7 +38,7 @@ void prepare_grpc() {
   }();
 }
 
-grpc::ChannelArguments arguments_for(const Connection& connection) {
+grpc::ChannelArguments arguments_for_an_engine() {
   grpc::ChannelArguments arguments;
   arguments.SetMaxReceiveMessageSize(kLargestMessage);
   // A connection of its own, which does not wait because another one failed before.
@@ -44,18 +47,17 @@ grpc::ChannelArguments arguments_for(const Connection& connection) {
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 1000);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 500);
   arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
-  // An end of the process is told by the system, at once on this machine. Pings find a machine or a network
-  // that is gone; on this machine they would only find an engine that somebody has stopped for a while.
-  const bool remote = connection.address.starts_with("tcp:");
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, remote ? 2 * kShortestPingMilliseconds - 100 : 10000);
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, remote ? 800 : 20000);
+  // An end of the process is told by the system, at once on this machine. Pings find an engine that hangs,
+  // and a machine or a network that is gone.
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kPingMilliseconds);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kPingPatienceMilliseconds);
   arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
   return arguments;
 }
 
 std::shared_ptr<grpc::Channel> channel_to(const Connection& connection) {
   prepare_grpc();
-  grpc::ChannelArguments arguments = arguments_for(connection);
+  grpc::ChannelArguments arguments = arguments_for_an_engine();
   if (connection.address.starts_with("unix:"))
     return grpc::CreateCustomChannel(connection.address, grpc::InsecureChannelCredentials(), arguments);
   grpc::SslCredentialsOptions tls;
@@ -72,10 +74,28 @@ Error no_connection(const Connection& connection, const grpc::Status& status) {
     return {ErrorCode::kInvalid, "what answers at " + connection.address + " does not have the certificate",
             "use the connection file of the engine that runs now"};
   }
-  return {ErrorCode::kEngine, "nobody answers at " + connection.address,
-          connection.host.empty() ? "start the engine with footwall serve"
-                                  : "the engine was started on " + connection.host +
-                                        ": start it again there, with footwall serve"};
+  const std::string there = connection.host.empty() ? "" : " on " + connection.host;
+  // Somebody has the socket, or a machine is silent.
+  const bool silent = status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED || says("timed out");
+  if (silent && !says("refused") && !says("No such")) {
+    return {ErrorCode::kEngine, "the engine at " + connection.address + " does not answer",
+            "it hangs, or the way to it is broken: look at its process" +
+                (connection.process > 0 ? " " + std::to_string(connection.process) : "") + there +
+                ", end it, and start it again with footwall serve"};
+  }
+  return {ErrorCode::kEngine, "the engine has ended: nobody answers at " + connection.address,
+          "start it again" + there + " with footwall serve"};
+}
+
+// Over a connection of its own.
+bool answers(const Connection& connection) {
+  const auto channel = channel_to(connection);
+  const auto end = std::chrono::system_clock::now() + std::chrono::milliseconds(kPingPatienceMilliseconds);
+  grpc::ClientContext context;
+  context.AddMetadata(kTokenMetadata, connection.token);
+  context.set_deadline(end);
+  v1::StatusReply reply;
+  return v1::Engine::NewStub(channel)->Status(&context, {}, &reply).ok();
 }
 
 void take_progress(const v1::Progress& progress, const JobContext& job) {
@@ -312,7 +332,8 @@ std::unique_ptr<EngineClient::LiveStream> EngineClient::live(
   v1::LiveRequest first;
   first.set_volume(volume);
   *first.mutable_options() = options;
-  return open_live_stream(*state_->stub, state_->connection.token, std::move(first), std::move(answer));
+  return open_live_stream(*state_->stub, state_->connection.token, std::move(first), std::move(answer),
+                          [connection = state_->connection] { return answers(connection); });
 }
 
 std::string EngineClient::run_task(const v1::Task& task, std::span<const InputFile> in,
@@ -322,7 +343,8 @@ std::string EngineClient::run_task(const v1::Task& task, std::span<const InputFi
   grpc::ClientContext context;
   state_->prepare(context);
   Conversation<v1::TaskInput, v1::TaskOutput> talk(
-      context, [&](auto* reactor) { state_->stub->async()->RunTask(&context, reactor); });
+      context, [&](auto* reactor) { state_->stub->async()->RunTask(&context, reactor); },
+      [this] { return answers(state_->connection); });
   // A message is sent only when those before it are nearly through, so that large files are never held whole.
   const auto send = [&](v1::TaskInput message) {
     return talk.send(std::move(message)) && talk.wait_for_room(1, job);

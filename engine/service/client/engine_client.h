@@ -49,6 +49,10 @@ class EngineClient {
     virtual ~LiveStream() = default;
     // Does not wait for the answer. Throws kEngine, or the Error that ended the stream.
     virtual void send(const v1::EditBatch& batch) = 0;
+    // Whether it has ended, by an Error that finish() throws.
+    virtual bool has_ended() const = 0;
+    // send() where it has not; false where it has.
+    virtual bool offer(const v1::EditBatch& batch) = 0;
     // No more edits; waits for the answers on the way.
     virtual void finish() = 0;
   };

@@ -32,7 +32,7 @@ constexpr std::chrono::seconds kTimeToEnd{5};
 constexpr int kLookMilliseconds = 50;
 
 std::string listen_words(const std::string& listen, const std::filesystem::path& folder) {
-  const std::string words = listen == "unix" ? "unix:" + (folder / "engine.sock").string() : listen;
+  std::string words = listen == "unix" ? "unix:" + (folder / "engine.sock").string() : listen;
   const std::string path = words.starts_with("unix:") ? words.substr(5) : "";
   if (path.size() >= sizeof sockaddr_un::sun_path) {
     throw Error(ErrorCode::kUsage, "the socket's path is too long: " + path,
@@ -65,11 +65,17 @@ struct EngineProcess::State {
                                    "--folder", folder.path().string()};
     if (!options.volumes.empty())
       words.insert(words.end(), {"--volumes", std::filesystem::absolute(options.volumes).string()});
+    if (!options.certificates.empty())
+      words.insert(words.end(), {"--certificates", options.certificates.string()});
     if (options.launch.threads > 0)
       words.insert(words.end(), {"--threads", std::to_string(options.launch.threads)});
     if (options.memory_bytes > 0)
       words.insert(words.end(), {"--memory", std::to_string(options.memory_bytes)});
     command = session::engine_command(options.launch, words, folder.path());
+    session::Belongings belongings = options.belongings;
+    belongings.folders.push_back(folder.path());
+    command.words = session::kept_command(session::engine_program(options.launch), belongings, kTokenVariable,
+                                          command.words);
     command.settings.push_back(std::string(kTokenVariable) + "=" + options.token);
     // The child lives no longer than the thread that started it: one that does nothing else.
     watcher = std::thread([this] { watch(); });
@@ -86,11 +92,14 @@ struct EngineProcess::State {
       std::optional<Clock::time_point> kill_at;
       while (child.read_lines(kLookMilliseconds, [&](const std::string& text) { line(text); })) {
         if (!stop_asked) continue;
+        const auto now = Clock::now();
         if (!kill_at) {
-          child.signal(SIGTERM);
-          kill_at = Clock::now() + kTimeToEnd;
-        } else if (Clock::now() > *kill_at) {
+          child.signal(kill_asked ? SIGQUIT : SIGTERM);
+          kill_at = now + kTimeToEnd;
+        } else if (now > *kill_at + kTimeToEnd) {
           child.kill_group();
+        } else if (now > *kill_at) {
+          child.signal(SIGQUIT);
         }
       }
       status = child.wait();
@@ -138,6 +147,12 @@ struct EngineProcess::State {
     last.push_back(text);
   }
 
+  void end() {
+    stop_asked = true;
+    std::unique_lock lock(mutex);
+    changed.wait(lock, [&] { return ended.has_value(); });
+  }
+
   std::optional<Connection> serving() const {
     const std::scoped_lock lock(mutex);
     return ended ? std::nullopt : ready;
@@ -153,6 +168,7 @@ struct EngineProcess::State {
   session::PrivateFolder folder;
   session::EngineCommand command;
   std::atomic<bool> stop_asked{false};
+  std::atomic<bool> kill_asked{false};
   mutable std::mutex mutex;
   mutable std::condition_variable changed;
   std::optional<Connection> ready;
@@ -216,9 +232,12 @@ void EngineProcess::stop() {
       // It does not answer: what follows needs no answer.
     }
   }
-  state_->stop_asked = true;
-  std::unique_lock lock(state_->mutex);
-  state_->changed.wait(lock, [&] { return state_->ended.has_value(); });
+  state_->end();
+}
+
+void EngineProcess::kill() {
+  state_->kill_asked = true;
+  state_->end();
 }
 
 }  // namespace footwall::service

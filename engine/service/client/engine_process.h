@@ -1,5 +1,5 @@
-// The processes of a resident engine that this program has started: launcher and ranks. They end with it,
-// whatever ends it.
+// The processes of a resident engine that this program has started: keeper, launcher and ranks. They end with
+// it, whatever ends it, and leave nothing (session/keeper.h).
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include <string>
 
 #include "engine/service/client/connection_file.h"
+#include "engine/session/keeper.h"
 #include "engine/session/launch.h"
 #include "storage/base/job_context.h"
 
@@ -19,8 +20,12 @@ struct EngineProcessOptions {
   std::string listen = "unix";    // a socket in the engine's private folder; "unix:PATH", "tcp:HOST:PORT"
   std::string token;              // empty: a random one, for this process alone
   std::filesystem::path volumes;  // a folder whose volumes are found by checksum; empty: none
+  // Where key and certificate for "tcp:" stay, on the machine of rank 0; empty: new ones at each start.
+  std::filesystem::path certificates;
   std::int64_t memory_bytes = 0;  // of each host; 0: what is free there
   std::string project;            // for the connection
+  // What goes with this program, should it be killed: beside what the engine itself leaves.
+  session::Belongings belongings;
 };
 
 // 64 hexadecimal digits that nobody can guess.
@@ -48,6 +53,8 @@ class EngineProcess {
   // Asks it to end, as a client does; after five seconds its launcher, and after five more it is killed.
   // Nothing of it is left then.
   void stop();
+  // The same without asking: of one that is dead or hangs.
+  void kill();
 
  private:
   struct State;

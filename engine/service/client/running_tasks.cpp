@@ -8,6 +8,7 @@
 
 #include "engine/service/client/engine_client.h"
 #include "engine/service/task_files.h"
+#include "engine/session/batch.h"
 #include "storage/base/error.h"
 #include "storage/base/partial_file.h"
 
@@ -20,7 +21,7 @@ std::string own_host() {
   return host;
 }
 
-// What the engine sends, beside its places until everything is there.
+// What the engine sends, beside its places until everything is there; but for what a later run goes on with.
 class Outputs {
  public:
   explicit Outputs(const PackedTask& task) : task_(task) {}
@@ -28,11 +29,16 @@ class Outputs {
   void take(const v1::FilePiece& piece) {
     if (name_ != piece.name()) begin(piece.name());
     out_.write(piece.bytes().data(), static_cast<std::streamsize>(piece.bytes().size()));
-    if (piece.last()) {
-      out_.close();
-      name_.clear();
-    }
+    if (piece.last()) out_.close();
     if (!out_) throw io_error("write", files_.back()->path().string(), errno);
+    if (!piece.last()) return;
+    if (!task_.out_folder.empty() && session::goes_on_with(name_)) {
+      // The result of an earlier run does not speak of this part.
+      std::filesystem::remove(task_.result);
+      files_.back()->commit();
+      files_.pop_back();
+    }
+    name_.clear();
   }
   void commit() {
     if (!name_.empty()) throw Error(ErrorCode::kEngine, "the engine sent half of " + name_);

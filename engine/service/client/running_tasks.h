@@ -9,7 +9,8 @@ namespace footwall::service {
 
 // For session::LaunchOptions::running. Connects for each task. Nothing is read or written by the engine where
 // the job says: files travel with the call, volumes are named by their checksums (and by path where the
-// engine is on this host). Its outputs take their names when all of them have arrived.
+// engine is on this host). Its outputs take their names when all of them have arrived; but parts of a batch
+// job each by itself, so that the next run goes on with them: they are sent along with the job.
 std::shared_ptr<session::RunningEngine> running_tasks(const Connection& connection);
 
 }  // namespace footwall::service

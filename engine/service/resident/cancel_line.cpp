@@ -4,12 +4,11 @@
 
 #include <limits>
 
-#include "engine/service/resident/connect_host.h"
+#include "engine/service/resident/connect_ranks.h"
 
 namespace footwall::service {
 namespace {
 
-constexpr int kCancel = 2;  // a message's tag
 constexpr std::chrono::milliseconds kPause(5);
 // The leader leaves in order.
 constexpr std::uint64_t kGoodbye = std::numeric_limits<std::uint64_t>::max();
@@ -18,15 +17,11 @@ constexpr std::uint64_t kGoodbye = std::numeric_limits<std::uint64_t>::max();
 
 CancelLine::CancelLine(const comm::Communicator& world, const std::filesystem::path& folder,
                        const std::vector<int>& host_of, std::function<void()> left_alone)
-    : world_(world.get()), hosts_(host_of, world.rank()), left_alone_(std::move(left_alone)) {
-  connect_host(world_, hosts_, folder / fmt::format("cancel-{}", hosts_.leader), leader_, member_);
-  world_.collectively([&] {
-    if (world_.rank() == 0) {
-      thread_ = std::thread([this] { watch_call(); });
-    } else if (!hosts_.is_leader) {
-      thread_ = std::thread([this] { listen(); });
-    }
-  });
+    : left_alone_(std::move(left_alone)) {
+  const Hosts hosts(host_of, world.rank());
+  connect_ranks(world, hosts, folder / fmt::format("cancel-{}", hosts.leader), leader_, member_);
+  world.collectively(
+      [&] { thread_ = member_ ? std::thread([this] { listen(); }) : std::thread([this] { watch_call(); }); });
 }
 
 CancelLine::~CancelLine() {
@@ -67,7 +62,7 @@ void CancelLine::cancel_mine(std::uint64_t command) {
 
 void CancelLine::pass_on(std::uint64_t command) {
   try {
-    leader_->send(command);
+    if (leader_) leader_->send(command);
   } catch (const Error&) {
     // A rank has gone: the launcher ends the others.
   }
@@ -83,9 +78,7 @@ void CancelLine::watch_call() {
       asleep_ = false;
       continue;
     }
-    // Where there are other hosts, the main thread has to tell them, and would not once its own context was
-    // cancelled.
-    if (asked_->cancelled() && hosts_.other_leaders.empty()) {
+    if (asked_->cancelled()) {
       const std::uint64_t command = command_;
       lock.unlock();
       pass_on(command);
@@ -99,33 +92,13 @@ void CancelLine::watch_call() {
 void CancelLine::listen() {
   while (const auto word = member_->receive()) {
     if (*word == kGoodbye) return;
-    cancel_mine(*word);
+    pass_on(*word);
   }
   {
     const std::scoped_lock lock(mutex_);
     if (ended_) return;
   }
   left_alone_();
-}
-
-void CancelLine::look() {
-  if (world_.rank() == 0) {
-    if (hosts_.other_leaders.empty() || !asked_ || !asked_->cancelled() || told_ == command_) return;
-    told_ = command_;
-    for (const int leader : hosts_.other_leaders)
-      comm::check(MPI_Send(&told_, 1, MPI_UINT64_T, leader, kCancel, world_.get()), "MPI_Send");
-    pass_on(told_);
-    return;
-  }
-  if (!hosts_.is_leader) return;
-  for (;;) {
-    int there = 0;
-    comm::check(MPI_Iprobe(0, kCancel, world_.get(), &there, MPI_STATUS_IGNORE), "MPI_Iprobe");
-    if (there == 0) return;
-    std::uint64_t command = 0;
-    comm::check(MPI_Recv(&command, 1, MPI_UINT64_T, 0, kCancel, world_.get(), MPI_STATUS_IGNORE), "MPI_Recv");
-    pass_on(command);
-  }
 }
 
 }  // namespace footwall::service

@@ -1,6 +1,5 @@
-// How a cancel of the running command reaches all ranks while they compute, in milliseconds. On each host a
-// small thread of every rank waits for it, without MPI; from rank 0's host to the others it is a message,
-// which the main threads send and look for when they tell how far they are (look()).
+// How a cancel of the running command reaches all ranks while they compute or wait in MPI, in milliseconds: a
+// small thread of every rank waits for it, without MPI, and those of leaders pass it on to their host.
 #pragma once
 #include <condition_variable>
 #include <filesystem>
@@ -12,15 +11,15 @@
 
 #include "engine/comm/communicator.h"
 #include "engine/service/resident/host_line.h"
-#include "engine/service/resident/hosts.h"
 #include "storage/base/job_context.h"
 
 namespace footwall::service {
 
 class CancelLine {
  public:
-  // left_alone: called by the thread, once, where the leader of this rank's host has died: the rank may be in
-  // the middle of a communication that never ends. Collective; throws on all ranks or on none.
+  // left_alone: called by the thread, once, where the rank that leads this one has died (its host's leader,
+  // or rank 0): it may be in the middle of a communication that never ends. Collective; throws on all ranks
+  // or on none.
   CancelLine(const comm::Communicator& world, const std::filesystem::path& folder,
              const std::vector<int>& host_of, std::function<void()> left_alone);
   ~CancelLine();
@@ -32,17 +31,13 @@ class CancelLine {
   void begin(const JobContext& mine, const std::optional<JobContext>& asked = std::nullopt);
   // It ended, or failed, on this rank.
   void end();
-  // Main thread, while a command runs.
-  void look();
 
  private:
   void watch_call();  // rank 0's thread
-  void listen();      // the others' thread, but for leaders
+  void listen();      // the others'
   void cancel_mine(std::uint64_t command);
   void pass_on(std::uint64_t command);
 
-  comm::Communicator world_;
-  Hosts hosts_;
   std::optional<HostLineLeader> leader_;
   std::optional<HostLineMember> member_;
   std::function<void()> left_alone_;
@@ -51,7 +46,6 @@ class CancelLine {
   std::condition_variable changed_;
   std::uint64_t command_ = 0;    // the running one, or the last
   std::uint64_t cancelled_ = 0;  // the newest that was cancelled; perhaps one that this rank has yet to begin
-  std::uint64_t told_ = 0;       // rank 0: the newest that other hosts know of
   std::optional<JobContext> mine_;
   std::optional<JobContext> asked_;
   bool asleep_ = false;

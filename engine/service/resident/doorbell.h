@@ -1,5 +1,5 @@
-// Idle ranks sleep until rank 0 rings: MPI's own waiting would keep a core busy. On rank 0's host they block
-// in the kernel; the leader of every other host looks for a message every 2 ms, and wakes its host's ranks.
+// Idle ranks sleep in the kernel until rank 0 rings: MPI's own waiting would keep a core busy. Rank 0 wakes
+// its host's ranks and the leaders of other hosts, and these theirs.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -7,7 +7,6 @@
 
 #include "engine/comm/communicator.h"
 #include "engine/service/resident/host_line.h"
-#include "engine/service/resident/hosts.h"
 
 namespace footwall::service {
 
@@ -17,15 +16,13 @@ class Doorbell {
   Doorbell(const comm::Communicator& world, const std::filesystem::path& folder,
            const std::vector<int>& host_of);
 
-  // Rank 0: wakes the others, or their next wait() returns at once. Throws Error kEngine where a rank of this
-  // host has gone.
+  // Rank 0: wakes the others, or their next wait() returns at once. Throws Error kEngine where one of those
+  // that it rings itself has gone.
   void ring();
-  // The others: returns once for each ring. Throws Error kEngine where the host's leader has gone.
+  // The others: returns once for each ring. Throws Error kEngine where the rank that rings this one has gone.
   void wait();
 
  private:
-  comm::Communicator world_;
-  Hosts hosts_;
   std::optional<HostLineLeader> leader_;
   std::optional<HostLineMember> member_;
 };

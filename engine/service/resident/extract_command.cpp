@@ -7,11 +7,13 @@
 #include "engine/extract/computations.h"
 #include "engine/service/ranks.pb.h"
 #include "engine/service/resident/commands.h"
+#include "engine/service/resident/memory_needs.h"
 #include "engine/service/resident/pieces.h"
-#include "engine/service/resident/report_json.h"
 #include "engine/service/resident/resident_state.h"
 #include "engine/service/wire.h"
+#include "engine/session/report_json.h"
 #include "storage/base/hash.h"
+#include "storage/survey/moved_lattice.h"
 
 namespace footwall::service {
 namespace {
@@ -27,11 +29,13 @@ struct Numbers {
   extract::Report report;
 };
 
+// As the volume sees them.
 template <typename Wanted>
-std::vector<Face> faces_where(const FaceModel::Faces& model, Wanted&& wanted) {
+std::vector<Face> faces_where(const FaceModel::Faces& model, const OpenVolume& volume, Wanted&& wanted) {
   std::vector<Face> faces;
   for (const auto& [name, triangle] : model) {
-    if (wanted(name)) faces.push_back({name.fault, name.owner, name.n, triangle});
+    if (wanted(name))
+      faces.push_back({name.fault, name.owner, name.n, survey::in_volume(triangle, volume.info.origin)});
   }
   return faces;
 }
@@ -64,8 +68,8 @@ void keep(Numbers& numbers, Wanted&& wanted) {
 }
 
 Numbers all(ResidentState& state, OpenVolume& volume, Extraction& extraction, const JobContext& job) {
-  std::vector<Face> faces =
-      state.world.collectively([&] { return faces_where(state.model.faces(), [](auto&) { return true; }); });
+  std::vector<Face> faces = state.world.collectively(
+      [&] { return faces_where(state.model.faces(), volume, [](auto&) { return true; }); });
   if (!extraction.incremental) return compute(volume, std::move(faces), extraction.options, job);
   auto fresh = std::make_unique<extract::Incremental>(*volume.survey, volume.info.statistics.max_abs,
                                                       extraction.options);
@@ -83,7 +87,8 @@ Numbers changed(ResidentState& state, OpenVolume& volume, Extraction& extraction
     std::vector<Face> faces = state.world.collectively([&] {
       std::set<std::int64_t> faults;
       for (const FaceIdentity& name : extraction.touched) faults.insert(name.fault);
-      return faces_where(state.model.faces(), [&](const auto& name) { return faults.contains(name.fault); });
+      return faces_where(state.model.faces(), volume,
+                         [&](const auto& name) { return faults.contains(name.fault); });
     });
     return compute(volume, std::move(faces), extraction.options, job);
   }
@@ -111,7 +116,7 @@ Numbers some(ResidentState& state, OpenVolume& volume, const extract::Options& o
       asked.insert(name);
       faults.insert(name.fault);
     }
-    return faces_where(state.model.faces(), [&](const auto& name) {
+    return faces_where(state.model.faces(), volume, [&](const auto& name) {
       return whole_faults ? faults.contains(name.fault) : asked.contains(name);
     });
   });
@@ -151,6 +156,17 @@ void extract(ResidentState& state, const v1::Command& command, const Send& send,
     return asked;
   });
 
+  const bool is_changed = found.extraction != nullptr && request.changed_only() && found.extraction->complete;
+  const auto asked = static_cast<std::int64_t>(request.has_only() ? request.only().faults_size()
+                                               : is_changed       ? found.extraction->touched.size()
+                                                                  : state.model.faces().size());
+  const std::int64_t needed = extraction_passes(asked) + (request.has_only() ? 0 : extraction_stays(asked));
+  if (needed > kWorthAsking) {
+    state.memory.require_free(
+        needed, "the extraction",
+        "extract fewer faces at once, close volumes that are not needed, or use more hosts");
+  }
+
   OpenVolume* const volume = found.volume;
   const extract::Options& options = found.options;
   Extraction* const extraction = found.extraction;
@@ -171,7 +187,8 @@ void extract(ResidentState& state, const v1::Command& command, const Send& send,
     done.set_faces(static_cast<std::int64_t>(numbers.faces.size()));
     done.set_voxels(numbers.report.voxels);
     if (is_all) done.set_checksum(to_hex(extract::checksum_of(numbers.faces, numbers.statistics)));
-    done.set_report_json(report_json(numbers.report, options));
+    done.set_report_json(session::report_json(numbers.report, options)
+                             .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     send(last);
   });
   if (extraction != nullptr) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "engine/extract/computations.h"
+#include "engine/service/resident/memory_needs.h"
+#include "storage/survey/moved_lattice.h"
 
 namespace footwall::service {
 namespace {
@@ -22,7 +24,7 @@ extract::FaceChanges Extraction::changes(const FaceModel::Faces& model) const {
       if (place) changes.removed.push_back(name);
       continue;
     }
-    const extract::Face face{name.fault, name.owner, name.n, now->second};
+    const extract::Face face{name.fault, name.owner, name.n, survey::in_volume(now->second, origin)};
     if (!place) {
       changes.added.push_back(face);
     } else if (*incremental->face(*place) != face) {
@@ -42,6 +44,7 @@ Extraction& Extractions::of(const OpenVolume& volume, const extract::Options& op
   }
   Extraction fresh;
   fresh.volume = volume.checksum;
+  fresh.origin = volume.info.origin;
   fresh.options = options;
   if (!extract::asks_for(options, "offset")) {
     fresh.incremental =
@@ -57,6 +60,13 @@ void Extractions::touch(std::span<const extract::FaceIdentity> names, std::size_
   // So that the faces of scripts that number them anew each time do not pile up: such an extraction is begun
   // again when it is asked for.
   all_.remove_if([&](const Extraction& each) { return each.touched.size() > kTouchedAnyhow + 2 * faces; });
+}
+
+std::int64_t Extractions::memory_bytes() const {
+  std::int64_t faces = 0;
+  for (const Extraction& each : all_)
+    faces += each.incremental ? static_cast<std::int64_t>(each.incremental->size()) : 0;
+  return extraction_stays(faces);
 }
 
 void Extractions::forget(const std::string& volume) {

@@ -16,6 +16,7 @@ namespace footwall::service {
 // Extractions of one volume with the same options. Alike on every rank.
 struct Extraction {
   std::string volume;
+  survey::Index origin{0, 0, 0};  // of its first voxel in the survey
   extract::Options options;
   // Holds the faces that were extracted, as they were then. None for options that it refuses (offset).
   std::unique_ptr<extract::Incremental> incremental;
@@ -23,7 +24,8 @@ struct Extraction {
   std::set<extract::FaceIdentity> touched;
   bool complete = false;  // all faces were extracted once, so that the touched ones are what is left to do
 
-  // From the extracted faces to the model's, of the touched faces alone.
+  // From the extracted faces to the model's, of the touched faces alone; in the volume's index space. Throws
+  // kInvalid for a face that is too far away from it.
   extract::FaceChanges changes(const FaceModel::Faces& model) const;
 };
 
@@ -34,6 +36,8 @@ class Extractions {
   // extract_all would refuse.
   Extraction& of(const OpenVolume& volume, const extract::Options& options);
   void touch(std::span<const extract::FaceIdentity> names, std::size_t faces);
+  // By the estimate of memory_needs.h.
+  std::int64_t memory_bytes() const;
   // The volume is closed.
   void forget(const std::string& volume);
 

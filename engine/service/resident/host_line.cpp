@@ -89,9 +89,9 @@ void HostLineLeader::accept(int members, std::chrono::milliseconds patience) {
 
 void HostLineLeader::send(std::uint64_t word) const {
   bool all = true;
-  for (const Descriptor& member : members_)
-    all &= ::send(member.get(), &word, sizeof word, MSG_NOSIGNAL | MSG_DONTWAIT) == sizeof word;
-  if (!all) throw Error(ErrorCode::kEngine, "a rank of this host has gone", "start the engine again");
+  for (auto member = members_.rbegin(); member != members_.rend(); ++member)
+    all &= ::send(member->get(), &word, sizeof word, MSG_NOSIGNAL | MSG_DONTWAIT) == sizeof word;
+  if (!all) throw Error(ErrorCode::kEngine, "a rank has gone", "start the engine again");
 }
 
 HostLineMember::HostLineMember(const std::filesystem::path& path) {
@@ -104,7 +104,7 @@ HostLineMember::HostLineMember(const std::filesystem::path& path) {
 std::optional<std::uint64_t> HostLineMember::receive() const {
   std::uint64_t word = 0;
   for (;;) {
-    const ssize_t got = recv(socket_.get(), &word, sizeof word, 0);
+    const ssize_t got = recv(socket_.get(), &word, sizeof word, MSG_WAITALL);
     if (got == sizeof word) return word;
     if (got < 0 && errno == EINTR) continue;
     return std::nullopt;

@@ -4,6 +4,7 @@
 #include "engine/extract/computations.h"
 #include "engine/service/ranks.pb.h"
 #include "engine/service/resident/commands.h"
+#include "engine/service/resident/memory_needs.h"
 #include "engine/service/resident/resident_state.h"
 #include "engine/service/wire.h"
 
@@ -84,6 +85,13 @@ void send_numbers(std::uint64_t edit, double begun, const extract::FaceChanges& 
 void live(ResidentState& state, const v1::Command& command, const Send& send, const JobContext& job) {
   const v1::LiveStep& step = command.live();
   const double begun = omp_get_wtime() - step.waited_seconds();
+  std::int64_t needed = 0;
+  for (const v1::EditBatch& batch : step.batches()) {
+    const std::int64_t edit = edit_bytes(batch, static_cast<std::int64_t>(state.model.faces().size()));
+    needed += edit + edit * extraction_passes(1) / model_bytes(1);
+  }
+  if (needed > kWorthAsking)
+    state.memory.require_free(needed, "the edit", "close volumes that are not needed, or use more hosts");
   Applied applied;
   Extraction* extraction = nullptr;
   bool touched = false;

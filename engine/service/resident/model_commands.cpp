@@ -3,6 +3,7 @@
 
 #include "engine/service/ranks.pb.h"
 #include "engine/service/resident/commands.h"
+#include "engine/service/resident/memory_needs.h"
 #include "engine/service/resident/pieces.h"
 #include "engine/service/resident/resident_state.h"
 #include "engine/service/wire.h"
@@ -11,6 +12,10 @@
 namespace footwall::service {
 
 void edit_model(ResidentState& state, const v1::Command& command, const Send& send, const JobContext& job) {
+  const std::int64_t needed =
+      edit_bytes(command.edit_model(), static_cast<std::int64_t>(state.model.faces().size()));
+  if (needed > kWorthAsking)
+    state.memory.require_free(needed, "the edit", "close volumes that are not needed, or use more hosts");
   std::optional<FaceModel::Change> change;
   try {
     state.world.collectively([&] {

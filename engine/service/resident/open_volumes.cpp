@@ -4,22 +4,14 @@
 
 #include <numeric>
 
+#include "engine/comm/shared_text.h"
 #include "engine/service/engine.pb.h"
 #include "engine/service/resident/load_volume.h"
-#include "engine/service/resident/shared_text.h"
 #include "storage/base/hash.h"
-#include "storage/base/usable_memory.h"
 #include "storage/volume/volume_reader.h"
 
 namespace footwall::service {
 namespace {
-
-std::string in_words(std::int64_t bytes) {
-  constexpr double kMiB = 1 << 20;
-  const auto mebibytes = static_cast<double>(std::max<std::int64_t>(bytes, 0)) / kMiB;
-  return mebibytes < 1024 ? fmt::format("{:.1f} MiB", mebibytes)
-                          : fmt::format("{:.1f} GiB", mebibytes / 1024);
-}
 
 Error not_open(const std::string& checksum) {
   return {ErrorCode::kNotFound, fmt::format("volume '{}' is not open", checksum),
@@ -33,8 +25,8 @@ std::int64_t OpenVolume::memory_bytes() const {
 }
 
 OpenVolumes::OpenVolumes(const comm::Communicator& world, const std::filesystem::path& folder,
-                         std::vector<int> host_of, std::int64_t host_bytes)
-    : world_(world), folder_(folder), host_of_(std::move(host_of)), host_bytes_(host_bytes) {}
+                         const HostMemory& memory)
+    : world_(world), folder_(folder), memory_(memory) {}
 
 std::filesystem::path OpenVolumes::file_of(const std::string& checksum) {
   const auto open = volumes_.find(checksum);
@@ -71,32 +63,25 @@ OpenVolumes::Found OpenVolumes::locate_here(const v1::VolumeName& name) {
 
 OpenVolumes::Found OpenVolumes::locate(const v1::VolumeName& name) {
   const Found found = world_.collectively([&] { return world_.rank() == 0 ? locate_here(name) : Found(); });
-  return {shared_text(world_, found.path.string()), shared_text(world_, found.checksum)};
+  return {comm::shared_text(world_, found.path.string()), comm::shared_text(world_, found.checksum)};
 }
 
-std::int64_t OpenVolumes::on_this_host(const std::vector<std::int64_t>& rank_bytes) const {
-  std::int64_t sum = 0;
-  for (std::size_t rank = 0; rank < rank_bytes.size(); ++rank) {
-    if (host_of_[rank] == host_of_[static_cast<std::size_t>(world_.rank())]) sum += rank_bytes[rank];
-  }
-  return sum;
+std::int64_t OpenVolumes::bytes_of(int rank) const {
+  std::int64_t bytes = 0;
+  for (const auto& [checksum, volume] : volumes_) bytes += volume->rank_bytes[static_cast<std::size_t>(rank)];
+  return bytes;
 }
 
-void OpenVolumes::refuse_too_large(const std::vector<std::int64_t>& stay,
-                                   const std::vector<std::int64_t>& pass,
-                                   const std::filesystem::path& path) const {
-  std::int64_t free = usable_memory().bytes;
-  if (host_bytes_ > 0) {
-    std::int64_t left = host_bytes_;
-    for (const auto& [checksum, volume] : volumes_) left -= on_this_host(volume->rank_bytes);
-    free = std::min(free, left);
+std::int64_t OpenVolumes::kept_bytes() const {
+  std::int64_t bytes = 0;
+  for (const auto& [checksum, volume] : volumes_) {
+    for (const auto& [name, kept] : volume->kept) bytes += kept->memory_bytes();
   }
-  const std::int64_t needed = on_this_host(stay) + on_this_host(pass);
-  if (needed <= free) return;
-  throw Error(ErrorCode::kMemory,
-              fmt::format("the volume {} needs {} on this host, {} are free", path.string(), in_words(needed),
-                          in_words(free)),
-              "close other volumes, or use more hosts or a smaller volume");
+  return bytes;
+}
+
+void OpenVolumes::drop_kept() {
+  for (const auto& [checksum, volume] : volumes_) volume->kept.clear();
 }
 
 OpenVolume& OpenVolumes::open(const v1::VolumeName& name, const JobContext& job) {
@@ -117,8 +102,11 @@ OpenVolume& OpenVolumes::open(const v1::VolumeName& name, const JobContext& job)
                   fmt::format("the volume {} changed while it was opened", found.path.string()),
                   "open it again when it is whole");
     }
-    refuse_too_large(loader.bytes_that_stay(), loader.bytes_that_pass(), found.path);
   });
+  const auto rank = static_cast<std::size_t>(world_.rank());
+  memory_.require_free(loader.bytes_that_stay()[rank] + loader.bytes_that_pass()[rank],
+                       fmt::format("the volume {}", found.path.string()),
+                       "close other volumes, or use more hosts or a smaller volume");
 
   // 3 Each rank reads its part.
   auto volume = std::make_unique<OpenVolume>();

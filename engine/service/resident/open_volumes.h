@@ -8,6 +8,7 @@
 
 #include "engine/comm/communicator.h"
 #include "engine/extract/extract.h"
+#include "engine/service/resident/host_memory.h"
 #include "engine/service/resident/volume_folder.h"
 #include "engine/service/resident_status.h"
 #include "storage/base/job_context.h"
@@ -19,24 +20,33 @@ class VolumeName;
 
 namespace footwall::service {
 
+// What a command keeps of a volume.
+class Kept {
+ public:
+  Kept() = default;
+  virtual ~Kept() = default;
+  Kept(const Kept&) = delete;
+  Kept& operator=(const Kept&) = delete;
+  virtual std::int64_t memory_bytes() const = 0;  // of this rank
+};
+
 struct OpenVolume {
   std::string checksum;  // 16 hex digits: its name in requests
   std::filesystem::path path;
   volume::VolumeInfo info;
   std::unique_ptr<extract::LoadedSurvey> survey;
   std::vector<std::int64_t> rank_bytes;  // that stay in memory, of each rank
-  // What commands keep for the next of their kind; gone when the volume is closed. No part of the state hash.
-  std::map<std::string, std::shared_ptr<void>> kept;
+  // What commands keep for the next of their kind; gone when the volume is closed, and where memory is short.
+  // No part of the state hash.
+  std::map<std::string, std::shared_ptr<Kept>> kept;
 
   std::int64_t memory_bytes() const;  // of all ranks
 };
 
 class OpenVolumes {
  public:
-  // folder: where volumes are found by checksum, may be empty. host_of: of each rank, the lowest rank of its
-  // host. host_bytes: what volumes may take on each host; 0: what is free there. Not collective.
-  OpenVolumes(const comm::Communicator& world, const std::filesystem::path& folder, std::vector<int> host_of,
-              std::int64_t host_bytes);
+  // folder: where volumes are found by checksum, may be empty. memory stays. Not collective.
+  OpenVolumes(const comm::Communicator& world, const std::filesystem::path& folder, const HostMemory& memory);
 
   // Where a volume is, and that it is the right one. Collective. Throws kNotFound, kUsage (a name that is
   // none, a path that is not absolute), kInvalid (another checksum), and what VolumeReader throws.
@@ -61,15 +71,16 @@ class OpenVolumes {
   std::filesystem::path file_of(const std::string& checksum);
   std::uint64_t hash() const;
 
- private:
-  void refuse_too_large(const std::vector<std::int64_t>& stay, const std::vector<std::int64_t>& pass,
-                        const std::filesystem::path& path) const;
-  std::int64_t on_this_host(const std::vector<std::int64_t>& rank_bytes) const;
+  // Voxels of a rank in memory; what is kept besides on this one.
+  std::int64_t bytes_of(int rank) const;
+  std::int64_t kept_bytes() const;
+  // Not collective, alike on every rank.
+  void drop_kept();
 
+ private:
   const comm::Communicator& world_;
   VolumeFolder folder_;
-  std::vector<int> host_of_;
-  std::int64_t host_bytes_;
+  const HostMemory& memory_;
   std::map<std::string, std::unique_ptr<OpenVolume>> volumes_;
 };
 

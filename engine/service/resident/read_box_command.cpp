@@ -10,7 +10,7 @@ void read_box(ResidentState& state, const v1::ReadBoxRequest& request, const Sen
   std::shared_ptr<void>& kept = state.kept["box reads"];
   if (!kept) kept = std::make_shared<BoxReads>();
   // Readers stay open, but not for volumes that this engine has no more.
-  const std::filesystem::path file = state.volumes.file_of(request.volume());
+  std::filesystem::path file = state.volumes.file_of(request.volume());
   std::static_pointer_cast<BoxReads>(kept)->read(
       request, [&](const std::string&) { return file; }, send);
 }

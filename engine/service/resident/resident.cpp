@@ -1,6 +1,7 @@
 #include "engine/service/resident/resident.h"
 
 #include <fmt/format.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -12,6 +13,7 @@
 #include "engine/service/resident/cancel_line.h"
 #include "engine/service/resident/commands.h"
 #include "engine/service/resident/doorbell.h"
+#include "engine/service/resident/hosts.h"
 #include "engine/service/resident/resident_state.h"
 #include "storage/base/log.h"
 
@@ -26,6 +28,13 @@ std::int64_t resident_bytes() {
   std::int64_t resident = 0;
   file >> whole >> resident;
   return file ? resident * sysconf(_SC_PAGESIZE) : 0;
+}
+
+// Nanoseconds that all processes of a host count alike.
+std::uint64_t host_clock() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000 + static_cast<std::uint64_t>(now.tv_nsec);
 }
 
 const CommandRow* row_of(const v1::Command& command) {
@@ -44,7 +53,7 @@ comm::Bytes bytes_of(const v1::Command& command) {
 
 // The launcher ends with its first rank; so do ranks that it cannot reach.
 void leave_alone() {
-  log::error("the first rank of this host has died: this one ends, too");
+  log::error("the rank that leads this one has died: this one ends, too");
   std::_Exit(EXIT_FAILURE);
 }
 
@@ -72,6 +81,7 @@ struct Resident::State {
   void follow();
 
   comm::Communicator& world;
+  std::uint64_t begun_at = 0;  // host_clock() of the running command: rung, or heard
   Doorbell doorbell;
   CancelLine cancels;
   ResidentState resident;
@@ -123,9 +133,11 @@ void Resident::State::gather_ranks() {
 
 // Whether all ranks still have the same; and what there is to tell of it.
 void Resident::State::settle() {
-  const std::array<std::uint64_t, 2> mine{resident.hash(), static_cast<std::uint64_t>(resident_bytes())};
-  std::vector<std::array<std::uint64_t, 2>> all(static_cast<std::size_t>(world.size()));
-  comm::check(MPI_Gather(mine.data(), 2, MPI_UINT64_T, all.data(), 2, MPI_UINT64_T, 0, world.get()),
+  using Words = std::array<std::uint64_t, 3>;
+  const Words mine{resident.hash(), static_cast<std::uint64_t>(resident_bytes()), begun_at};
+  std::vector<Words> all(static_cast<std::size_t>(world.size()));
+  constexpr int kWords = static_cast<int>(mine.size());
+  comm::check(MPI_Gather(mine.data(), kWords, MPI_UINT64_T, all.data(), kWords, MPI_UINT64_T, 0, world.get()),
               "MPI_Gather");
   if (world.rank() != 0) return;
   for (std::size_t rank = 0; rank < all.size(); ++rank) {
@@ -135,8 +147,11 @@ void Resident::State::settle() {
                 "start the engine again, and report what was done before");
   }
   const std::scoped_lock lock(mutex);
-  for (std::size_t rank = 0; rank < all.size(); ++rank)
+  for (std::size_t rank = 0; rank < all.size(); ++rank) {
     status.ranks[rank].memory_bytes = static_cast<std::int64_t>(all[rank][1]);
+    if (begun_at > 0 && resident.host_of[rank] == resident.host_of[0])
+      status.ranks[rank].start_seconds = 1e-9 * static_cast<double>(all[rank][2] - begun_at);
+  }
   status.volumes.clear();
   for (const auto& [checksum, volume] : resident.volumes.all())
     status.volumes.push_back({checksum, volume->path.string(), volume->info.dims, volume->memory_bytes()});
@@ -162,14 +177,13 @@ std::optional<Error> Resident::State::run(const v1::Command& command, const Send
 void Resident::State::follow() {
   for (;;) {
     doorbell.wait();
+    begun_at = host_clock();
     const comm::Bytes bytes = world.broadcast({}, 0);
     v1::Command command;
     require(command.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())), "a command of rank 0");
     if (command.has_shutdown()) return;
     require(row_of(command) != nullptr, "a command that ranks know");
-    const JobContext job([this](const Progress&) {
-      if (std::this_thread::get_id() == main) cancels.look();
-    });
+    const JobContext job;
     cancels.begin(job);
     run(
         command, [](const google::protobuf::Message&) {}, job);
@@ -231,13 +245,9 @@ void Resident::State::carry_out_together(const v1::Command& command, Call& call,
   const JobContext job([&](const Progress& progress) {
     if (std::this_thread::get_id() != main) return;
     read_between(queue);
-    try {
-      call.context().report(progress.fraction, progress.phase, progress.amounts);
-    } catch (const Error&) {
-      cancels.look();  // the other hosts have to hear of it before this rank stops
-      throw;
-    }
+    call.context().report(progress.fraction, progress.phase, progress.amounts);
   });
+  begun_at = host_clock();
   doorbell.ring();
   world.broadcast(std::move(bytes), 0);
   cancels.begin(job, call.context());

@@ -20,8 +20,8 @@ struct ResidentOptions {
   std::int64_t memory_bytes = 0;  // of each host, for voxels, faces and pictures; 0: what is free there
   // Of each rank, the lowest rank of its host; empty: as MPI tells. For tests, which have one host alone.
   std::vector<int> host_of;
-  // What a rank does whose host's first rank has died: it may wait for a message that never comes. None: the
-  // process ends. Called on a thread of its own.
+  // What a rank does where its host's first rank, or rank 0, has died: it may wait for a message that never
+  // comes. None: the process ends. Called on a thread of its own.
   std::function<void()> left_alone;
 };
 

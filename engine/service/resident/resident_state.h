@@ -6,6 +6,7 @@
 
 #include "engine/service/resident/extractions.h"
 #include "engine/service/resident/face_model.h"
+#include "engine/service/resident/memory_needs.h"
 #include "engine/service/resident/open_volumes.h"
 
 namespace footwall::service {
@@ -18,11 +19,22 @@ class ResidentState {
       : world(its_world),
         threads(its_threads),
         host_of(its_host_of),
-        volumes(its_world, volume_folder, its_host_of, host_bytes) {}
+        memory(its_world, its_host_of, host_bytes),
+        volumes(its_world, volume_folder, memory) {
+    memory.held = [this]() -> HostMemory::Held {
+      return {volumes.bytes_of(world.rank()) + model_bytes(static_cast<std::int64_t>(model.faces().size())) +
+                  extractions.memory_bytes(),
+              volumes.kept_bytes()};
+    };
+    memory.drop = [this] { volumes.drop_kept(); };
+  }
+  ResidentState(const ResidentState&) = delete;
+  ResidentState& operator=(const ResidentState&) = delete;
 
   comm::Communicator& world;
   int threads;
   std::vector<int> host_of;
+  HostMemory memory;
   OpenVolumes volumes;
   FaceModel model;
   Extractions extractions;  // before volumes are closed, they go

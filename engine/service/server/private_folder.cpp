@@ -10,9 +10,10 @@
 
 namespace footwall::service {
 
-void require_private_folder(const std::filesystem::path& folder) {
+bool require_private_folder(const std::filesystem::path& folder) {
   const std::string name = folder.string();
-  if (::mkdir(name.c_str(), 0700) != 0 && errno != EEXIST) throw io_error("make the folder", name, errno);
+  const bool made = ::mkdir(name.c_str(), 0700) == 0;
+  if (!made && errno != EEXIST) throw io_error("make the folder", name, errno);
   struct stat facts = {};
   if (::stat(name.c_str(), &facts) != 0) throw io_error("look at", name, errno);
   if (!S_ISDIR(facts.st_mode)) throw Error(ErrorCode::kUsage, fmt::format("{} is not a folder", name));
@@ -20,6 +21,7 @@ void require_private_folder(const std::filesystem::path& folder) {
     throw Error(ErrorCode::kUsage, fmt::format("the folder {} is not yours alone", name),
                 fmt::format("chmod 700 {}, or name another folder", name));
   }
+  return made;
 }
 
 }  // namespace footwall::service

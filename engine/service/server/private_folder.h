@@ -4,8 +4,8 @@
 
 namespace footwall::service {
 
-// Makes the folder, mode 0700, where it is not there. Throws Error kUsage where others than this user can
-// read or write it, or it belongs to somebody else; kIo.
-void require_private_folder(const std::filesystem::path& folder);
+// Makes the folder, mode 0700, where it is not there: then true. Throws Error kUsage where others than this
+// user can read or write it, or it belongs to somebody else; kIo.
+bool require_private_folder(const std::filesystem::path& folder);
 
 }  // namespace footwall::service

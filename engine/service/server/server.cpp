@@ -19,6 +19,7 @@
 #include "engine/service/server/private_folder.h"
 #include "engine/service/server/requests/pillar_request.h"
 #include "engine/service/server/requests/services.h"
+#include "engine/service/words_on_the_wire.h"
 
 namespace footwall::service {
 namespace {
@@ -44,7 +45,7 @@ void limit(grpc::ServerBuilder& builder, const ServerLimits& limits) {
   set(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 5'000);
   set(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
   set(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);  // any number
-  set(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 500);
+  set(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, kShortestPingMilliseconds);
 }
 
 std::shared_ptr<grpc::ServerCredentials> credentials_of(const Certificate& certificate) {

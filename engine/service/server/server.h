@@ -33,10 +33,11 @@ struct ServerOptions {
   // "unix:PATH": a socket that is made with mode 0600 in a folder that is this user's alone. "tcp:HOST:PORT":
   // TLS, with the certificate in `certificates`, made on first use; port 0: any.
   std::string listen;
-  std::string token;                   // at least 32 characters
-  std::filesystem::path certificates;  // a private folder for key and certificate; unused with unix:
-  std::filesystem::path scratch;       // a private folder for the files of RunTask
-  std::string version;                 // for Status
+  std::string token;  // at least 32 characters
+  std::filesystem::path
+      certificates;               // a private folder for key and certificate, which stay; unused with unix:
+  std::filesystem::path scratch;  // a private folder for the files of RunTask
+  std::string version;            // for Status
   ServerLimits limits;
 };
 

@@ -1,78 +1,26 @@
-"""Several hosts: two network namespaces on this machine, with host names of their own, joined by one wire; ranks talk over
-TCP and are started over there through an agent, as by ssh."""
+"""Jobs whose ranks are on two hosts."""
 import json
 import os
-import pathlib
-import shlex
 import shutil
 import signal
 import subprocess
 import time
 import unittest
 
-from jobs_test import AS_ROOT
+import hosts
+from hosts import HERE, THERE
 from processes import go_on, is_rank, stopped_ranks
 from support import BIN, FootwallTest
 
-HERE, THERE = f"fw{os.getpid()}a", f"fw{os.getpid()}b"
-NETWORK = f"10.{77 + os.getpid() % 100}.{os.getpid() // 100 % 250}"
-
-
-def quiet(*words):
-    return subprocess.run(words, capture_output=True, text=True)
-
-
-def why_not():
-    """Why this machine cannot play two hosts; empty where it can."""
-    if os.geteuid() != 0:
-        return "only root makes network namespaces"
-    for tool in ("ip", "unshare", "mpirun", "hostname"):
-        if shutil.which(tool) is None:
-            return f"there is no {tool}"
-    if "Open MPI" not in quiet("mpirun", "--version").stdout:
-        return "mpirun is not Open MPI's"
-    made = quiet("ip", "netns", "add", HERE)
-    if made.returncode != 0:
-        return made.stderr.strip()
-    return ""
-
-
-def end_hosts():
-    for name in (HERE, THERE):
-        quiet("ip", "netns", "del", name)
-
 
 def setUpModule():
-    reason = why_not()
-    if reason:
-        raise unittest.SkipTest(f"skipped: no network namespaces here ({reason})")
-    unittest.addModuleCleanup(end_hosts)
-    for words in (f"netns add {THERE}", f"link add {HERE}v netns {HERE} type veth peer name {THERE}v netns {THERE}",
-                  f"-n {HERE} addr add {NETWORK}.1/24 dev {HERE}v", f"-n {THERE} addr add {NETWORK}.2/24 dev {THERE}v",
-                  f"-n {HERE} link set lo up", f"-n {THERE} link set lo up",
-                  f"-n {HERE} link set {HERE}v up", f"-n {THERE} link set {THERE}v up"):
-        done = quiet("ip", *words.split())
-        if done.returncode != 0:
-            raise unittest.SkipTest(f"skipped: no network namespaces here (ip {words}: {done.stderr.strip()})")
+    hosts.make_hosts()
 
 
 class Hosts(FootwallTest):
     def setUp(self):
         super().setUp()
-        inside = "ip netns exec {0} unshare --uts sh -c 'hostname {0}; exec \"$@\"' sh"
-        self.executable("agent", f"shift\nexec {inside.format(THERE)} sh -c \"$*\"")
-        self.executable("start", f"""
-ranks=$1; shift
-exec {inside.format(HERE)} mpirun --mca plm_rsh_agent {shlex.quote(self.path('agent'))} --mca btl tcp,self,vader \\
-  --mca btl_vader_single_copy_mechanism none --mca btl_tcp_if_include {NETWORK}.0/24 --mca oob_tcp_if_include {NETWORK}.0/24 \\
-  --bind-to none --map-by node --host {NETWORK}.1:8,{NETWORK}.2:8 -n "$ranks" "$@"
-""")
-        self.two_hosts = {**AS_ROOT, "FOOTWALL_LAUNCHER": f"{self.path('start')} {{ranks}}"}
-
-    def executable(self, name, text):
-        path = pathlib.Path(self.path(name))
-        path.write_text(f"#!/bin/sh\n{text}\n")
-        path.chmod(0o755)
+        self.two_hosts = hosts.launcher(self.folder)
 
     def test_a_batch_job_gives_the_numbers_of_one_host(self):
         project = self.synthetic()

@@ -76,6 +76,72 @@ class PythonEngine(FootwallTest):
         numpy.testing.assert_array_equal(engine.section(sample=5), whole[:, :, 5])
         numpy.testing.assert_array_equal(engine.box(None, (3, 4, 5), (9, 9, 9)), whole[3:9, 4:9, 5:9])
 
+    def test_pillars_give_what_the_project_stores(self):
+        engine = self.started()
+        for fault in self.project.faults()["name"].tolist():
+            made = engine.triangulate(fault)
+            stored = self.project.faces(fault, coordinates="index")
+            self.assertGreater(len(made.faces), 0)
+            row = {name: n for n, name in enumerate(made.faces.ids.tolist())}
+            order = [row[name] for name in stored.ids.tolist()]
+            self.assertEqual(len(order), len(made.faces))
+            numpy.testing.assert_array_equal(made.faces.corners[order], stored.corners)
+            self.assertEqual(set(made.faces.faults.tolist()), {engine.fault_number(fault)})
+            numpy.testing.assert_allclose(self.project.survey.index_of(made.vertices[made.triangles]), made.faces.corners,
+                                          atol=1 / 256)
+        between = engine.interpolate("planar", every=2)
+        self.assertGreater(len(between), 0)
+        before = set(self.project.pillars("planar")["pillar"].tolist())
+        self.project.interpolate("planar", every=2)
+        nodes = self.project.nodes("planar")
+        added = [pillar for pillar in self.project.pillars("planar") if pillar["pillar"] not in before]
+        self.assertEqual([(each.first, each.second) for each in between], [tuple(pillar["parents"]) for pillar in added])
+        for each, pillar in zip(between, added):
+            stored = nodes[nodes["pillar"] == pillar["pillar"]]
+            numpy.testing.assert_allclose(each.nodes, numpy.stack([stored[name] for name in "xyz"], axis=1), rtol=1e-12)
+        self.assertEqual(len(engine.interpolate("planar", every=2)), len(between))  # of those that were picked, still
+        # Pillars of no project.
+        survey = self.project.survey
+        slope = {n: survey.world_of([[5, j, 4], [9, j, 20]]) for n, j in ((1, 5), (2, 15), (3, 25))}
+        flat = engine.interpolate(slope, every=5)
+        self.assertEqual([(each.first, each.second, each.parameter) for each in flat], [(1, 2, 0.5), (2, 3, 0.5)])
+        for each, j in zip(flat, (10, 20)):
+            numpy.testing.assert_allclose(survey.index_of(each.nodes), [[5, j, 4], [9, j, 20]], atol=1e-6)
+        self.assertGreater(len(engine.triangulate(slope).triangles), 0)
+        for wrong in (lambda: engine.interpolate("planar"), lambda: engine.triangulate("nobody")):
+            with self.assertRaises(footwall.Error):
+                wrong()
+
+    def test_a_volume_that_covers_a_part_of_the_survey(self):
+        """The model stays where it is: the numbers are those of the command line, voxels are the survey's."""
+        survey = self.project.survey
+        self.footwall("export", self.project.path, "--raw", "whole")
+        whole = numpy.fromfile(self.path("whole"), "<f4").reshape(survey.shape)
+        lines = [f"{axis.first + 5 * axis.step}:{axis.first + 29 * axis.step}" for axis in (survey.inlines, survey.crosslines)]
+        self.footwall("import", "volume", self.project.path, "whole", "--raw", "--dims", "x".join(map(str, survey.shape)),
+                      "--domain", survey.domain, "--vertical-unit", survey.vertical_unit, "--interval", survey.interval,
+                      "--name", "part", "--inlines", lines[0], "--crosslines", lines[1],
+                      "--z", f"{survey.z0 + 4 * survey.interval}:")
+        self.assertEqual(self.project.volume("part")["origin"], [5, 5, 4])
+        own = self.project.extract(volume="part")
+        told = self.project.statistics()
+        engine = self.started()
+        self.assertEqual(len(engine.status().volumes), 2)
+        numbers = engine.extract("part")
+        row = {name: n for n, name in enumerate(zip(numbers.faults.tolist(), numbers.ids.tolist()))}
+        order = [row[engine.fault_number(fault), face] for fault, face in zip(told.fault.tolist(), told.ids.tolist())]
+        self.assertGreater(numbers["count"].max(), 0)
+        self.assertGreater(numbers["outside"].max(), 0)
+        for name in SAME:
+            numpy.testing.assert_array_equal(numbers[name][order].astype(float), told.values[name], name)
+        face = int(numpy.argmax(numbers["count"]))
+        indices, values = engine.voxels((int(numbers.faults[face]), str(numbers.ids[face])), "part")
+        numpy.testing.assert_array_equal(values, whole[tuple(indices.T)])
+        engine.extract()  # of the whole, beside it
+        self.assertEqual(len(engine.extract("part", changed_only=True)), 0)
+        job = self.footwall("extract", self.project.path, "--volume", "part", "--engine", f"@{engine._folder.name}/engine.json")
+        self.assertEqual(job["checksum"], own["checksum"])
+
     def test_live_numbers_are_those_of_a_whole_extraction(self):
         engine = self.started()
         fault = str(self.project.faults()["name"][0])
@@ -98,6 +164,40 @@ class PythonEngine(FootwallTest):
         engine.load_model(fault)
         held = engine.model(fault)
         self.assertTrue((held.corners == before).all(axis=2).any())
+
+    def test_moves_outlive_the_engine(self):
+        """Whichever of its processes is killed in the middle of a stream of moves."""
+        fault = str(self.project.faults()["name"][0])
+        for kind in ("rank 0", "rank 1", "serve"):
+            with self.subTest(kind=kind):
+                engine = self.started()
+                status = engine.status()
+                victim = {"rank 0": status.process, "rank 1": status.each_rank[1].process,
+                          "serve": engine._served._process.pid}[kind]
+                told = {}
+                with engine.live(compute=["count", "mean"]) as live:
+                    mesh = live.mesh(fault)
+                    for step in range(60):
+                        vertex = step % len(mesh.vertices)
+                        last = live.move(fault, vertex, mesh.vertices[vertex] + [0.25, 0, 0])
+                        if step == 30:
+                            os.kill(victim, signal.SIGKILL)
+                    while True:
+                        answer = live.numbers(60)
+                        for name, count, mean in zip(answer.ids.tolist(), answer["count"], answer["mean"]):
+                            told[name] = (count, mean)
+                        if answer.edit >= last:
+                            break
+                self.assertNotEqual(engine.status().process, status.process)
+                whole = engine.extract(compute=["count", "mean"])
+                of_fault = whole.faults == engine.fault_number(fault)
+                found = {name: numbers for name, *numbers in zip(whole.ids[of_fault].tolist(), whole["count"][of_fault],
+                                                                 whole["mean"][of_fault])}
+                self.assertEqual(len(told), len(mesh.faces))
+                for name, numbers in told.items():
+                    numpy.testing.assert_array_equal(found[name], numbers, name)
+                self.assertEqual(engine.section(sample=5).shape, self.project.survey.shape[:2])
+                engine.close()
 
     def test_isosurfaces_and_pictures(self):
         engine = self.started()

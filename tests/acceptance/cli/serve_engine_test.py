@@ -59,7 +59,7 @@ class ServeEngine(FootwallTest):
         self.assertRegex(ready["address"], r"^tcp:127\.0\.0\.1:[1-9][0-9]*$")
         self.assertRegex(ready["fingerprint"], r"^([0-9A-F]{2}:){31}[0-9A-F]{2}$")
         self.assertIn("BEGIN CERTIFICATE", ready["certificate"])
-        key = self.folder / "engine" / "certificate" / "key.pem"
+        key = self.folder / "engine" / "certificate" / "engine.pem"
         self.assertEqual(stat.S_IMODE(key.stat().st_mode), 0o600)
         os.kill(ready["process"], signal.SIGINT)
         engine.communicate(timeout=60)

@@ -85,6 +85,34 @@ class Serve(ServedTest):
         self.assert_nothing_is_left(family)
         self.assertEqual(self.shared_memory_of(process.pid), [])
 
+    def test_one_that_hangs_and_one_that_is_gone_are_told_as_such(self):
+        project = self.synthetic()
+        process = self.serve(project, "--connection", "e.json", wait_for="@e.json")
+        rank = self.footwall("status", "@e.json")["process"]
+        os.kill(rank, signal.SIGSTOP)
+        error = self.refused(1, "status", "@e.json")
+        self.assertEqual(error["code"], "engine")
+        self.assertIn("does not answer", error["message"])
+        self.assertIn(str(rank), error["hint"])
+        os.kill(rank, signal.SIGCONT)
+        self.footwall("status", "@e.json", "--wait", "60")
+        # All at once, so that nobody can clean.
+        family = [process.pid, *below(process.pid)]
+        for each in family:
+            os.kill(each, signal.SIGSTOP)
+        for each in family:
+            os.kill(each, signal.SIGKILL)
+        process.wait()
+        self.assertTrue(all(map(is_gone, family)))
+        self.assertIn("has ended", self.refused(1, "status", "@e.json")["message"])
+        self.assertNotEqual(self.shared_memory_of(process.pid), [])
+        process.communicate()
+        again = self.serve(project, "--connection", "e.json", wait_for="@e.json")
+        self.assertEqual(self.shared_memory_of(process.pid), [])
+        self.footwall("stop", "@e.json")
+        self.ended(again)
+        self.assert_nothing_is_left([])
+
     def test_two_projects_are_served_side_by_side(self):
         a, b = self.synthetic("a.footwall"), self.synthetic("b.footwall", seed=4)
         serving = [self.serve(project, wait_for=project, ranks=1) for project in (a, b)]
@@ -153,15 +181,39 @@ class Serve(ServedTest):
         own = self.footwall("extract", project, "--ranks", "1")
         self.assertEqual(self.footwall("extract", project, "--engine", "@e.json")["checksum"], own["checksum"])
         # The certificate of another engine.
+        self.env["XDG_STATE_HOME"] = str(self.folder / "other")
         other = self.serve("--connection", "o.json", "--listen", "tcp:127.0.0.1:0", wait_for="@o.json", ranks=1)
         wrong = {**connection, "certificate": json.loads((self.folder / "o.json").read_text())["certificate"]}
-        if wrong["certificate"] != connection["certificate"]:
-            (self.folder / "e.json").write_text(json.dumps(wrong))
-            self.assertEqual(self.refused(1, "status", "@e.json")["code"], "invalid")
-            (self.folder / "e.json").write_text(json.dumps(connection))
+        self.assertNotEqual(wrong["certificate"], connection["certificate"])
+        (self.folder / "e.json").write_text(json.dumps(wrong))
+        self.assertEqual(self.refused(1, "status", "@e.json")["code"], "invalid")
+        (self.folder / "e.json").write_text(json.dumps(connection))
         for file, each in (("@e.json", process), ("@o.json", other)):
             self.footwall("stop", file)
             self.assertIn("fingerprint", self.ended(each))
+
+    def test_a_client_goes_on_after_a_restart(self):
+        (self.folder / "token").write_text("0123456789abcdef" * 4)
+        os.chmod(self.path("token"), 0o600)
+        self.env["FOOTWALL_ENGINE_TOKEN_FILE"] = self.path("token")
+        first = self.serve("--connection", "e.json", "--listen", "tcp:127.0.0.1:0", wait_for="@e.json", ranks=1)
+        shutil.copy(self.path("e.json"), self.path("kept.json"))
+        address = json.loads((self.folder / "kept.json").read_text())["address"]
+        self.footwall("stop", "@e.json")
+        self.ended(first)
+        second = self.serve("--connection", "e.json", "--listen", address, wait_for="@kept.json", ranks=1)
+        self.assertEqual(self.footwall("status", "@kept.json")["address"], address)
+        state = self.folder / "state" / "footwall" / "engine"
+        self.assertEqual(os.listdir(state), ["engine.pem"])
+        self.assertEqual([stat.S_IMODE(path.stat().st_mode) for path in (state, state / "engine.pem")], [0o700, 0o600])
+        self.footwall("stop", "@kept.json")
+        self.ended(second)
+        os.chmod(state, 0o755)
+        third = self.popen("serve", "--listen", address, "--ranks", 1)
+        self.assertIn(f"chmod 700 {state}", self.ended(third, 2))
+        # Nor one that can be guessed.
+        (self.folder / "token").write_text("short")
+        self.assertIn("32 characters", self.ended(self.popen("serve", "--ranks", 1), 2))
 
     def test_wrong_words_are_refused(self):
         for words in (("--listen", "somewhere"), ("--memory", "much"), ("--ranks", "0")):

@@ -50,7 +50,8 @@ class ServedTest(FootwallTest):
         self.runtime.mkdir(mode=0o700)
         self.temporary = self.folder / "tmp"
         self.temporary.mkdir()
-        self.env = {"XDG_RUNTIME_DIR": str(self.runtime), "TMPDIR": str(self.temporary)}
+        self.env = {"XDG_RUNTIME_DIR": str(self.runtime), "TMPDIR": str(self.temporary),
+                    "XDG_STATE_HOME": str(self.folder / "state")}
         self.serving = []
         self.addCleanup(self.end_all)
 
@@ -64,13 +65,13 @@ class ServedTest(FootwallTest):
         return super().start(*arguments, stdin=stdin, env={**self.env, **(env or {})})
 
     def popen(self, *arguments, **how):
-        return subprocess.Popen([str(BIN / "footwall"), *map(str, arguments)], stdout=subprocess.PIPE,
-                                stderr=subprocess.PIPE, text=True, cwd=self.folder,
-                                env={**os.environ, **self.env}, **how)
+        return subprocess.Popen([str(BIN / "footwall"), *map(str, arguments)], text=True, cwd=self.folder,
+                                env={**os.environ, **self.env},
+                                **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **how})
 
-    def serve(self, *arguments, wait_for="", ranks=2):
-        """A `footwall serve` that answers; wait_for: how status is to find it."""
-        process = self.popen("serve", *arguments, "--ranks", ranks)
+    def serve(self, *arguments, wait_for="", ranks=2, **how):
+        """A `footwall serve` that answers; wait_for: how status is to find it. how: of popen()."""
+        process = self.popen("serve", *arguments, "--ranks", ranks, **how)
         self.serving.append(process)
         if not self.answers(process, wait_for):
             self.fail(f"no engine: {process.communicate()}")

@@ -1,19 +1,22 @@
-// How fast a resident engine answers, without RPC: from a call's push to its end. Prints one table.
+// How fast a resident engine answers, without RPC (with it: footwall bench service): from a call's push to
+// its end. Prints one table.
 //   mpiexec --oversubscribe --bind-to none -n 2 build/release/bin/bench_service [MOVES [MOVES FOR MEMORY]]
 #include <fmt/format.h>
 #include <mpi.h>
 #include <time.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <random>
 #include <thread>
 
 #include "bench/service/bench_calls.h"
-#include "bench/service/processes.h"
 #include "engine/comm/environment.h"
+#include "engine/comm/shared_text.h"
 #include "engine/service/resident/doorbell.h"
+#include "engine/service/resident/hosts.h"
 #include "engine/service/resident/resident.h"
-#include "engine/service/resident/shared_text.h"
+#include "engine/tasks/process_use.h"
 #include "engine/tasks/workload/grow.h"
 #include "engine/tasks/workload/values.h"
 #include "scratch_folder.h"
@@ -32,6 +35,17 @@ constexpr int kMeshes = 16;
 void print(const std::string& what, const std::string& result) {
   std::printf("%-44s %s\n", what.c_str(), result.c_str());
   std::fflush(stdout);
+}
+
+std::vector<int> processes_of(const std::vector<RankFacts>& ranks) {
+  std::vector<int> processes;
+  for (const RankFacts& rank : ranks) processes.push_back(rank.process);
+  return processes;
+}
+
+double most_memory(const std::vector<RankFacts>& ranks) {
+  const std::vector<std::int64_t> bytes = tasks::resident_bytes(processes_of(ranks));
+  return static_cast<double>(*std::max_element(bytes.begin(), bytes.end()));
 }
 
 double now() {
@@ -90,10 +104,10 @@ void choose(v1::ExtractOptions& options) {
 void bench_idle(const std::string& what, const Resident& resident) {
   const auto ranks = resident.status().ranks;
   std::this_thread::sleep_for(std::chrono::seconds(1));
-  const std::vector<double> before = processor_seconds(ranks);
+  const std::vector<double> before = tasks::processor_seconds(processes_of(ranks));
   const double begun = now();
   std::this_thread::sleep_for(std::chrono::seconds(10));
-  const std::vector<double> after = processor_seconds(ranks);
+  const std::vector<double> after = tasks::processor_seconds(processes_of(ranks));
   const double seconds = now() - begun;
   std::string shares;
   for (std::size_t n = 0; n < before.size(); ++n)
@@ -172,11 +186,11 @@ class Bench {
 
   void moves(int vertices, int count) {
     const auto ranks = resident_.status().ranks;
-    const std::vector<double> before = processor_seconds(ranks);
+    const std::vector<double> before = tasks::processor_seconds(processes_of(ranks));
     std::vector<double> seconds;
     dirty_ = 0;
     for (int n = 0; n < count; ++n) seconds.push_back(move(vertices));
-    const std::vector<double> after = processor_seconds(ranks);
+    const std::vector<double> after = tasks::processor_seconds(processes_of(ranks));
     print(fmt::format("vertices moved: {} ({} faces)", vertices, dirty_ / count), spread(seconds));
     // Of all threads, waiting for the other ranks included.
     std::string each;
@@ -186,9 +200,9 @@ class Bench {
   }
 
   void memory(int count) {
-    const double before = static_cast<double>(most_memory(resident_.status().ranks));
+    const double before = most_memory(resident_.status().ranks);
     for (int n = 0; n < count; ++n) move(1);
-    const double after = static_cast<double>(most_memory(resident_.status().ranks));
+    const double after = most_memory(resident_.status().ranks);
     print(fmt::format("memory over {} moves", count),
           fmt::format("{:.1f} MiB before, {:.1f} MiB after", before / (1 << 20), after / (1 << 20)));
   }
@@ -252,7 +266,7 @@ int number(int argc, char** argv, int place, int otherwise) {
 void run(comm::Communicator& world, int argc, char** argv) {
   std::optional<ScratchFolder> scratch;
   if (world.rank() == 0) scratch.emplace();
-  const std::filesystem::path folder = shared_text(world, scratch ? scratch->path().string() : "");
+  const std::filesystem::path folder = comm::shared_text(world, scratch ? scratch->path().string() : "");
   if (world.rank() == 0) std::printf("%d ranks of 1 thread, benchmark 2's model\n", world.size());
   bench_ring(world, folder, "ring to the last rank", host_of_ranks(world));
   std::vector<int> apart(static_cast<std::size_t>(world.size()));

@@ -2,11 +2,13 @@
 // conversions take or refuse. The first byte of an input chooses the method; the rest are its messages, each
 // after two bytes that say how long it is.
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+#include <google/protobuf/stubs/logging.h>
 
 #include <filesystem>
 
 #include "engine/service/ranks.pb.h"
 #include "engine/service/server/requests/methods.h"
+#include "engine/service/server/requests/parcel.h"
 #include "engine/service/server/requests/pillar_request.h"
 #include "engine/service/wire.h"
 #include "fuzz/target.h"
@@ -83,6 +85,23 @@ void carry_out(CallQueue& queue, const std::shared_ptr<CountedReply>& reply) {
   }
 }
 
+// Whether a message takes no more than was foreseen before it was unpacked.
+bool takes_what_is_foreseen(const std::string& method, std::string_view wire) {
+  const auto* const known = v1::StatusRequest::descriptor()->file()->service(0)->FindMethodByName(method);
+  if (known == nullptr) return true;
+  const auto message = new_message(*known->input_type());
+  try {
+    google::protobuf::io::ArrayInputStream stream(wire.data(), static_cast<int>(wire.size()), 7);
+    const Parcel parcel(stream, static_cast<std::int64_t>(wire.size()), *known->input_type());
+    parcel.unpack(*message);
+    return static_cast<std::int64_t>(message->SpaceUsedLong()) <= parcel.memory_bytes();
+  } catch (const Error& error) {
+    const google::protobuf::LogSilencer quiet;
+    return error.code() == ErrorCode::kInvalid &&
+           !message->ParseFromArray(wire.data(), static_cast<int>(wire.size()));
+  }
+}
+
 bool run(const std::string& bytes) {
   static const ScratchFolder scratch;  // files of tasks come and go in it
   if (bytes.empty()) return true;
@@ -100,6 +119,8 @@ bool run(const std::string& bytes) {
     while (std::exchange(reply->reading, false) && at + 2 <= bytes.size()) {
       const auto byte = [&](std::size_t n) { return static_cast<unsigned char>(bytes[n]); };
       const std::size_t size = std::min<std::size_t>(byte(at) + 256U * byte(at + 1), bytes.size() - at - 2);
+      if (!takes_what_is_foreseen(kMethods[method], std::string_view(bytes).substr(at + 2, size)))
+        return false;
       google::protobuf::io::ArrayInputStream stream(bytes.data() + at + 2, static_cast<int>(size));
       reply->reading = false;
       request->received(stream, static_cast<std::int64_t>(size));

@@ -1,4 +1,5 @@
 #include "engine/service/resident/doorbell.h"
+#include "engine/service/resident/hosts.h"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 #include <functional>
 #include <thread>
 
+#include "engine/comm/shared_text.h"
 #include "engine/service/ranks.pb.h"
 #include "engine/service/resident/resident.h"
-#include "engine/service/resident/shared_text.h"
 #include "scratch_folder.h"
 #include "storage/base/hash.h"
 #include "storage/volume/volume_writer.h"
@@ -110,7 +110,7 @@ class ResidentCase : public testing::Test {
  protected:
   ResidentCase() : world(MPI_COMM_WORLD) {
     if (world.rank() == 0) made_.emplace();
-    folder = shared_text(world, made_ ? made_->path().string() : "");
+    folder = comm::shared_text(world, made_ ? made_->path().string() : "");
     options.folder = folder;
     options.volumes = folder;
   }
@@ -138,13 +138,15 @@ class ResidentCase : public testing::Test {
 
   // A volume in the folder, made by rank 0. All ranks call it.
   template <typename Value>
-  std::filesystem::path write_volume(const std::string& name, const survey::Index& dims, Value&& value) {
+  std::filesystem::path write_volume(const std::string& name, const survey::Index& dims, Value&& value,
+                                     const survey::Index& origin = {0, 0, 0}) {
     world.collectively([&] {
       if (world.rank() != 0) return;
       volume::WriteOptions how;
       how.geometry.inlines = {1, 1, dims[0]};
       how.geometry.crosslines = {1, 1, dims[1]};
       how.geometry.samples = dims[2];
+      how.origin = origin;
       how.chunk = survey::Index{8, 8, 8};
       volume::write_volume(folder / name, how,
                            [&](const survey::Box& box, std::span<float> values, std::span<std::uint8_t>) {

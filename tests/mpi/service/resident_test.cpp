@@ -181,6 +181,91 @@ TEST_F(ResidentEngine, ComputesOffsetsAndSomeFacesAlone) {
   });
 }
 
+TEST_F(ResidentEngine, SeesTheModelFromAVolumeThatCoversAPartOfTheSurvey) {
+  const survey::Index origin{5, 3, 2};
+  const auto part = write_volume("part.h5", {9, 11, 8}, made_value, origin);
+  run([&](Client& client) {
+    const std::string volume = opened(client, part);
+    const std::string whole = opened(client, path);
+    std::mt19937 random(7);
+    std::map<FaceIdentity, Face> in_survey;
+    std::map<FaceIdentity, Face> in_part;
+    const auto put = [&](std::uint64_t edit, int count) {
+      std::vector<Face> faces;
+      for (int n = 0; n < count; ++n)
+        faces.push_back(made_face(random, kDims, 1 + n % 2, static_cast<std::int32_t>(random() % 50)));
+      std::map<FaceIdentity, Face> last;  // of a name that comes twice
+      for (const Face& face : faces) last[identity_of(face)] = face;
+      faces.clear();
+      for (const auto& [name, face] : last) {
+        faces.push_back(face);
+        in_survey[name] = face;
+        Face& here = in_part[name] = face;
+        for (survey::LatticePoint& p : here.triangle) p = {p.i - 5 * 256, p.j - 3 * 256, p.k - 2 * 256};
+      }
+      return put_command(edit, faces).edit_model();
+    };
+    // All, those that changed, a drag, some, with offsets: each from both volumes.
+    v1::Command edit;
+    *edit.mutable_edit_model() = put(1, 40);
+    client.ask<v1::EditModelReply>(edit);
+    expect_same(numbers_of(client.ask<v1::ExtractReply>(extract_command(volume))), expected(part, in_part));
+    expect_same(numbers_of(client.ask<v1::ExtractReply>(extract_command(whole))), expected(path, in_survey));
+    const auto changed_of = [&](const std::string& of, const auto& file, const auto& model) {
+      v1::Command command = extract_command(of);
+      command.mutable_extract()->set_changed_only(true);
+      Numbers numbers = numbers_of(client.ask<v1::ExtractReply>(command));
+      Numbers want = expected(file, model);
+      std::erase_if(want, [&](const auto& each) { return !numbers.contains(each.first); });
+      EXPECT_GT(numbers.size(), 2U);
+      expect_same(numbers, want);
+    };
+    *edit.mutable_edit_model() = put(2, 9);
+    client.ask<v1::EditModelReply>(edit);
+    changed_of(volume, part, in_part);
+    changed_of(whole, path, in_survey);
+    v1::Command live;
+    live.mutable_live()->set_volume(volume);
+    *live.mutable_live()->add_batches() = put(3, 7);
+    Numbers moved;
+    for (const auto& reply : client.ask<v1::LiveReply>(live)) {
+      for (const NumberedFace& each : numbers_from(reply.numbers())) moved[each.face] = each.statistics;
+    }
+    Numbers want = expected(part, in_part);
+    std::erase_if(want, [&](const auto& each) { return !moved.contains(each.first); });
+    EXPECT_GT(moved.size(), 2U);
+    expect_same(moved, want);
+    extract::Options with_offset;
+    with_offset.compute = {"mean", "offset"};
+    expect_same(numbers_of(client.ask<v1::ExtractReply>(extract_command(volume, with_offset.compute))),
+                expected(part, in_part, with_offset));
+    // The model itself stays where it was put; voxels of a face stand in the survey.
+    v1::Command read;
+    read.mutable_read_model();
+    std::size_t faces = 0;
+    for (const auto& reply : client.ask<v1::ReadModelReply>(read)) {
+      for (const Face& face : faces_from(reply.faces())) {
+        EXPECT_EQ(face, in_survey.at(identity_of(face)));
+        ++faces;
+      }
+    }
+    EXPECT_EQ(faces, in_survey.size());
+    v1::Command voxels;
+    voxels.mutable_face_voxels()->set_volume(volume);
+    for (const int corner : {6, 5, 3, 12, 6, 4, 8, 12, 9})
+      voxels.mutable_face_voxels()->add_corners(corner * 256);
+    std::size_t there = 0;
+    for (const auto& reply : client.ask<v1::FaceVoxelsReply>(voxels)) {
+      for (int n = 0; n < reply.values_size(); ++n, ++there) {
+        const float value =
+            made_value({reply.places(3 * n) - 5, reply.places(3 * n + 1) - 3, reply.places(3 * n + 2) - 2});
+        EXPECT_TRUE(std::isnan(value) ? std::isnan(reply.values(n)) : value == reply.values(n));
+      }
+    }
+    EXPECT_GT(there, 20U);
+  });
+}
+
 TEST_F(ResidentEngine, RemembersAFewKindsOfExtractionsAndBeginsOthersAgain) {
   run([&](Client& client) {
     const std::string volume = opened(client, path);
@@ -385,6 +470,8 @@ TEST_F(ResidentEngine, TellsItsStatusAndEndsByShutdown) {
       EXPECT_GT(rank.process, 0);
       EXPECT_GT(rank.memory_bytes, 0);
       EXPECT_FALSE(rank.host.empty());
+      EXPECT_GE(rank.start_seconds.value_or(-1), 0);
+      EXPECT_LT(rank.start_seconds.value_or(0), 100);
     }
     ASSERT_EQ(status.volumes.size(), 1U);
     EXPECT_EQ(status.volumes[0].checksum, volume);

@@ -73,8 +73,8 @@ class StoredTaskTest : public SmallVolume {
 };
 
 TEST_F(StoredTaskTest, ABatchJobBringsItsParts) {
-  session::run_batch(world, path / "JOB.json", {});
   run("batch", path / "JOB.json");
+  session::run_batch(world, path / "JOB.json", {});
   if (world.rank() != 0) return;
   for (const char* name : {"fault-1.part.h5", "fault-2.part.h5", "fault-5.part.h5"}) {
     write_whole_file(path / "direct" / name, files.at(name));  // its bytes hold the second of their making
@@ -89,6 +89,18 @@ TEST_F(StoredTaskTest, ABatchJobBringsItsParts) {
   EXPECT_EQ(nlohmann::json::parse(files.at("result.json"))["checksum"],
             nlohmann::json::parse(made("out/result.json"))["checksum"]);
   EXPECT_EQ(packed.result, path / "out/result.json");
+}
+
+TEST_F(StoredTaskTest, ABatchJobGoesOnWithTheClientsParts) {
+  session::run_batch(world, path / "JOB.json", {});
+  on_root([&] { write_whole_file(path / "out/fault-2.part.h5", "half a part"); });
+  run("batch", path / "JOB.json");
+  if (world.rank() != 0) return;
+  EXPECT_EQ(order, (std::vector<std::string>{"fault-2.part.h5", "log.txt", "result.json"}));
+  const auto result = nlohmann::json::parse(files.at("result.json"));
+  for (const auto& part : result["parts"]) EXPECT_EQ(part["reused"], part["fault"] != 2);
+  EXPECT_EQ(result["checksum"], nlohmann::json::parse(made("out/result.json"))["checksum"]);
+  EXPECT_TRUE(files.at("log.txt").starts_with(made("out/log.txt")));
 }
 
 TEST_F(StoredTaskTest, AnAttributeVolumeIsTheSameFile) {

@@ -33,8 +33,8 @@ void LiveColoursTest::surfaces_are_made_without_an_engine() {
   QTRY_VERIFY_WITH_TIMEOUT(surfaces.is_settled() && surfaces.surface(fault) != nullptr, kPatience);
   QVERIFY(!document.project().mesh_is_stale(fault));  // kept
   QCOMPARE(surfaces.freshness(fault, "variance"), Freshness::kPlain);
-  QCOMPARE(surfaces.freshness(fault, "dip"), Freshness::kFresh);  // needs no voxels
-  QVERIFY(surfaces.range({fault}, "dip").has_value());
+  QCOMPARE(surfaces.freshness(fault, "area_voxels"), Freshness::kFresh);  // needs no voxels
+  QVERIFY(surfaces.range({fault}, "area_voxels").has_value());
   // A fault that loses its pillars loses its surface, and an undo brings both back.
   std::vector<Id> pillars;
   for (const auto& pillar : document.faults()[0].pillars) pillars.push_back(pillar.id);

@@ -4,11 +4,13 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
+#include <unistd.h>
 
 #include "engine/service/server/detail/certificate.h"
 #include "engine/service/server/detail/listener.h"
 #include "engine/service/server/detail/token.h"
 #include "engine_at_work.h"
+#include "storage/base/partial_file.h"
 
 namespace footwall::service {
 namespace {
@@ -353,15 +355,57 @@ TEST(ServerSafety, TheCertificateStaysAndIsPrivate) {
   const Certificate again = engine_certificate(folder / "c");
   EXPECT_EQ(made.fingerprint, again.fingerprint);
   EXPECT_EQ(made.key, again.key);
-  for (const char* name : {"key.pem", "certificate.pem"}) {
-    EXPECT_EQ(std::filesystem::status(folder / "c" / name).permissions(), std::filesystem::perms(0600))
-        << name;
-  }
+  using std::filesystem::perms;
+  const std::filesystem::path file = folder / "c" / "engine.pem";
+  EXPECT_EQ(std::filesystem::status(file).permissions(), perms(0600));
+  EXPECT_EQ(std::filesystem::status(folder / "c").permissions(), perms(0700));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "c"), {}), 1);
+  EXPECT_EQ(made.key.find("CERTIFICATE"), std::string::npos);
+  EXPECT_EQ(made.certificate.find("KEY"), std::string::npos);
   EXPECT_NE(engine_certificate(folder / "d").fingerprint, made.fingerprint);
-  std::filesystem::copy_file(folder / "d" / "key.pem", folder / "c" / "key.pem",
-                             std::filesystem::copy_options::overwrite_existing);
-  EXPECT_EQ(code_of([&] { engine_certificate(folder / "c"); }), ErrorCode::kCorrupt);
+
+  // Near its end there is a new one, which stays.
+  constexpr std::time_t kDay = 24 * 3600;
+  const std::time_t now = std::time(nullptr);
+  EXPECT_EQ(engine_certificate(folder / "c", now + 3600 * kDay).fingerprint, made.fingerprint);
+  const std::string renewed = engine_certificate(folder / "c", now + 3630 * kDay).fingerprint;
+  EXPECT_NE(renewed, made.fingerprint);
+  EXPECT_EQ(engine_certificate(folder / "c").fingerprint, renewed);
+  EXPECT_EQ(std::filesystem::status(file).permissions(), perms(0600));
+
+  // A key that others may know or have made is not used, nor a folder that is not this user's alone.
+  std::filesystem::permissions(file, perms(0640));
+  EXPECT_EQ(code_of([&] { engine_certificate(folder / "c"); }), ErrorCode::kUsage);
+  std::filesystem::permissions(file, perms(0600));
+  std::filesystem::permissions(folder / "c", perms(0750));
+  EXPECT_EQ(code_of([&] { engine_certificate(folder / "c"); }), ErrorCode::kUsage);
+  std::filesystem::permissions(folder / "c", perms(0700));
+  std::filesystem::rename(file, folder / "elsewhere");
+  std::filesystem::create_symlink(folder / "elsewhere", file);
+  EXPECT_EQ(code_of([&] { engine_certificate(folder / "c"); }), ErrorCode::kUsage);
+  if (::geteuid() == 0) {
+    std::filesystem::remove(file);
+    ASSERT_EQ(::chown((folder / "c").c_str(), 12345, 12345), 0);
+    EXPECT_EQ(code_of([&] { engine_certificate(folder / "c"); }), ErrorCode::kUsage);
+  }
+
+  // A key of one with the certificate of another.
+  const std::filesystem::path mixed = folder / "d" / "engine.pem";
+  std::filesystem::permissions(folder / "d", perms(0700));
+  write_whole_file(mixed, made.key + engine_certificate(folder / "e").certificate);
+  std::filesystem::permissions(mixed, perms(0600));
+  EXPECT_EQ(code_of([&] { engine_certificate(folder / "d"); }), ErrorCode::kCorrupt);
   EXPECT_EQ(code_of([] { fingerprint_of("no certificate"); }), ErrorCode::kFormat);
+}
+
+TEST(ServerSafety, EnginesThatStartAtOnceTakeOneCertificate) {
+  const ScratchFolder folder;
+  std::array<std::string, 8> prints;
+  std::vector<std::thread> engines;
+  for (std::string& print : prints)
+    engines.emplace_back([&] { print = engine_certificate(folder / "a" / "b" / "c").fingerprint; });
+  for (std::thread& engine : engines) engine.join();
+  for (const std::string& print : prints) EXPECT_EQ(print, prints[0]);
 }
 
 TEST(ServerSafety, Tokens) {

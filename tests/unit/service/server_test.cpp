@@ -83,7 +83,7 @@ Streamed<Reply> all_of(std::unique_ptr<grpc::ClientReader<Reply>> reader) {
 TEST(Server, TellsItsStatus) {
   EngineAtWork engine;
   engine.status.threads = 3;
-  engine.status.ranks = {{"north", 12, 100}, {"south\xff", 13, 200}};
+  engine.status.ranks = {{"north", 12, 100, 0.25}, {"south\xff", 13, 200}};
   engine.status.volumes = {{"00112233445566ff", "/data/a.fwv", {4, 5, 6}, 480}};
   engine.status.faces = 9;
   engine.status.edit = 8;
@@ -96,6 +96,8 @@ TEST(Server, TellsItsStatus) {
   EXPECT_EQ(reply.process(), 12);
   EXPECT_EQ(reply.ranks(), 2);
   EXPECT_EQ(reply.each_rank(1).host(), "south?");
+  EXPECT_EQ(reply.each_rank(0).start_seconds(), 0.25);
+  EXPECT_FALSE(reply.each_rank(1).has_start_seconds());
   EXPECT_EQ(reply.volumes(0).dims().k(), 6);
   EXPECT_EQ(reply.state_hash(), "00000000000000ff");
   EXPECT_EQ(reply.jobs_size(), 0);

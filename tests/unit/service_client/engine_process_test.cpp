@@ -119,6 +119,40 @@ TEST_F(Process, OneThatDoesNotAnswerIsToldAsSuch) {
   kill(connection.process, SIGCONT);
 }
 
+// Well before the system would tell: it is asked for every now and then.
+TEST_F(Process, AHangInTheMiddleOfACallIsNoticedAndAPauseIsNone) {
+  EngineProcess process(options());
+  const Connection connection = process.wait_until_ready({});
+  EngineClient client(connection);
+  v1::ExtractRequest request;
+  request.set_volume("waiting");
+  std::thread pause;
+  const JobContext job([&](const Progress&) {
+    kill(connection.process, SIGSTOP);
+    pause = std::thread([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(600));  // the pause that is tested
+      kill(connection.process, SIGCONT);
+      EngineClient(connection).status();
+      kill(connection.process, SIGSTOP);
+    });
+  });
+  const auto begun = std::chrono::steady_clock::now();
+  try {
+    client.extract(request, {}, job);
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kEngine);
+    EXPECT_NE(error.message().find("does not answer"), std::string::npos) << error.message();
+  }
+  pause.join();
+  const auto took = std::chrono::steady_clock::now() - begun;
+  EXPECT_GT(took, std::chrono::milliseconds(600));
+  EXPECT_LT(took, std::chrono::seconds(20));
+  fmt::print("noticed after {} ms\n",
+             std::chrono::duration_cast<std::chrono::milliseconds>(took).count() - 600);
+  process.kill();
+}
+
 TEST(RandomToken, IsNeverTheSame) {
   std::set<std::string> tokens;
   for (int n = 0; n < 100; ++n) tokens.insert(random_token());

@@ -9,7 +9,9 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <span>
 
+#include "engine/session/keeper.h"
 #include "unit/service_client/fake_engine.h"
 
 namespace {
@@ -22,6 +24,8 @@ void stop(int) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const std::span<char* const> arguments(argv, static_cast<std::size_t>(argc));
+  if (footwall::session::is_keeper(arguments)) return footwall::session::keep(arguments);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   signal(SIGTERM, stop);
   std::string listen;
@@ -43,6 +47,8 @@ int main(int argc, char** argv) {
   if (listen.empty() || token == nullptr) return 2;
   footwall::service::FakeEngine engine(token);
   grpc::ServerBuilder builder;
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
+                             footwall::service::kShortestPingMilliseconds);
   builder.AddListeningPort(listen, grpc::InsecureServerCredentials());
   builder.RegisterService(&engine);
   const auto server = builder.BuildAndStart();

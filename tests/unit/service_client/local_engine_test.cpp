@@ -1,5 +1,6 @@
 #include "engine/service/client/local_engine.h"
 
+#include <atomic>
 #include <thread>
 
 #include "storage/base/error.h"
@@ -23,8 +24,8 @@ TEST_F(Local, StartsWhenFirstNeededAndEndsWithItsObject) {
     LocalEngine engine(launch(), replay);
     EXPECT_FALSE(engine.is_running());
     EXPECT_EQ(engine.starts(), 0);
-    EXPECT_EQ(engine.client().status().edit(), 10U);
-    process = engine.client().status().process();
+    EXPECT_EQ(engine.client()->status().edit(), 10U);
+    process = engine.client()->status().process();
     EXPECT_TRUE(engine.is_running());
     EXPECT_EQ(engine.starts(), 1);
   }
@@ -34,7 +35,7 @@ TEST_F(Local, StartsWhenFirstNeededAndEndsWithItsObject) {
 
 TEST_F(Local, IsStartedAgainAndReplayed) {
   LocalEngine engine(launch(), replay);
-  const int first = engine.client().status().process();
+  const int first = engine.client()->status().process();
   kill(first, SIGKILL);
   int tries = 0;
   engine.with_engine([&](EngineClient& client) {
@@ -57,6 +58,68 @@ TEST_F(Local, ACallThatTheEngineDiesInIsMadeAgain) {
   EXPECT_EQ(tries, 2);
 }
 
+v1::EditBatch put(std::uint64_t edit) {
+  v1::EditBatch batch;
+  batch.set_edit(edit);
+  v1::Faces& faces = *batch.add_edits()->mutable_put();
+  faces.add_faults(1);
+  faces.add_owners(static_cast<std::int64_t>(edit % 5));
+  faces.add_numbers(0);
+  faces.mutable_corners()->Resize(9, 0);
+  return batch;
+}
+
+TEST_F(Local, EditsOutliveTheEngine) {
+  LocalEngine engine(launch(), replay);
+  EXPECT_EQ(engine.edit(put(0)).edit(), 1U);
+  EXPECT_EQ(engine.edit(put(7)).edit(), 7U);
+  EXPECT_EQ(engine.edit(put(8)).edit(), 8U);
+  const auto faces_of_another = [&] {
+    kill(engine.client()->status().process(), SIGKILL);
+    std::int64_t faces = -1;
+    engine.with_engine([&](EngineClient& client) { faces = client.status().faces(); });
+    return faces;
+  };
+  const std::int64_t faces = engine.client()->status().faces();
+  EXPECT_EQ(faces_of_another(), faces);
+  engine.forget_edits();
+  EXPECT_EQ(faces_of_another(), 0);
+}
+
+// The engine is killed, or hangs, in the middle of a stream; every edit is answered, by its own number.
+TEST_F(Local, AStreamOfEditsGoesOnInTheNextEngine) {
+  for (const int how : {SIGKILL, SIGSTOP}) {
+    LocalEngine engine(launch(), replay);
+    std::atomic<std::uint64_t> newest{0};
+    const auto live = engine.live("v", {}, [&](const v1::LiveReply& reply) {
+      EXPECT_GT(reply.edit() + 1, newest);
+      newest = reply.edit();
+    });
+    const int first = engine.client()->status().process();
+    for (std::uint64_t n = 1; n <= 300; ++n) {
+      live->send(put(n));
+      if (n == 150) kill(first, how);
+    }
+    live->finish();
+    EXPECT_EQ(newest, 300U);
+    EXPECT_NE(engine.client()->status().process(), first);
+    EXPECT_EQ(engine.starts(), 2);
+    EXPECT_TRUE(is_gone(first));
+  }
+}
+
+TEST_F(Local, AStreamEndsByItsOwnError) {
+  LocalEngine engine(launch(), replay);
+  const auto live = engine.live("v", {}, [](const v1::LiveReply&) {});
+  live->send(v1::EditBatch());
+  EXPECT_THROW(live->finish(), Error);
+  EXPECT_EQ(engine.starts(), 1);
+  // One that nobody finishes ends with its object, also when the engine is gone.
+  const auto other = engine.live("v", {}, [](const v1::LiveReply&) {});
+  other->send(put(5));
+  kill(engine.client()->status().process(), SIGKILL);
+}
+
 TEST_F(Local, OtherErrorsAreTheCallsOwn) {
   LocalEngine engine(launch(), replay);
   int tries = 0;
@@ -73,7 +136,7 @@ TEST_F(Local, OtherErrorsAreTheCallsOwn) {
 TEST_F(Local, GivesUpAfterThreeDeathsInAMinute) {
   LocalEngine engine(launch(), replay);
   for (int n = 0; n < 3; ++n) {
-    kill(engine.client().status().process(), SIGKILL);
+    kill(engine.client()->status().process(), SIGKILL);
     while (engine.is_running()) std::this_thread::yield();
   }
   try {
@@ -98,7 +161,7 @@ TEST_F(Local, OneThatCannotBeStartedSaysWhy) {
     EXPECT_NE(error.hint().find("there is no library"), std::string::npos);
   }
   unsetenv("FAKE_ENGINE_HOW");
-  EXPECT_EQ(engine.client().status().edit(), 10U);
+  EXPECT_EQ(engine.client()->status().edit(), 10U);
 }
 
 TEST_F(Local, AReplayThatFailsIsTold) {

@@ -21,6 +21,12 @@ survey::Box samples_of_bricks(const survey::Box& bricks, const survey::Index& vo
   return samples;
 }
 
+std::int64_t BrickPillars::memory_bytes() const {
+  std::size_t bytes = 0;
+  for (const PageVector<float>& values : values_) bytes += values.room_bytes();
+  return static_cast<std::int64_t>(bytes);
+}
+
 BrickPillars::BrickPillars(const Field& volume, int ranks, int rank, const Interleaving& interleaving) {
   for (const survey::Box& bricks : bricks_of_rank(volume.volume_size, ranks, rank, interleaving))
     parts_.push_back({volume, bricks});

@@ -36,6 +36,8 @@ class BrickPillars {
   BrickPillars& operator=(const BrickPillars&) = delete;
 
   std::span<const VolumePart> parts() const { return parts_; }
+  // Of the samples that it keeps.
+  std::int64_t memory_bytes() const;
 
  private:
   std::deque<PageVector<float>> values_;

@@ -9,9 +9,11 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <mutex>
 
 #include "engine/service/client/detail/call_end.h"
+#include "engine/service/words_on_the_wire.h"
 
 namespace footwall::service {
 
@@ -23,13 +25,14 @@ inline constexpr std::chrono::milliseconds kCancelInterval{20};
 template <class Reactor, class Reply>
 class Answers : public Reactor {
  public:
-  explicit Answers(grpc::ClientContext& context) : context_(context) {}
+  ~Answers() override = default;
   Answers(const Answers&) = delete;
   Answers& operator=(const Answers&) = delete;
 
   // The next message; false when there is none, and the call has ended.
   bool next(Reply& to, const JobContext& job) {
     std::unique_lock lock(mutex_);
+    heard_ = Clock::now();
     for (;;) {
       if (received_ && !told_) {
         std::swap(to, message_);
@@ -40,13 +43,19 @@ class Answers : public Reactor {
       if (done_) return false;
       if (!told_ && job.cancelled()) tell();
       changed_.wait_for(lock, kCancelInterval);
+      look_for_silence(lock);
     }
   }
   // After next() said false. Cancelled by us: kCancelled, whatever the other side made of it.
   void throw_unless_ok() {
     const std::unique_lock lock(mutex_);
+    if (silent_) throw silent_engine();
     if (told_) throw Error(ErrorCode::kCancelled, "cancelled");
     service::throw_unless_ok(status_, context_);
+  }
+  bool done() const {
+    const std::unique_lock lock(mutex_);
+    return done_;
   }
   void cancel() {
     const std::unique_lock lock(mutex_);
@@ -55,6 +64,7 @@ class Answers : public Reactor {
   // The call's error, where it has ended with one.
   void throw_if_failed() {
     const std::unique_lock lock(mutex_);
+    if (done_ && silent_) throw silent_engine();
     if (done_) service::throw_unless_ok(status_, context_);
   }
 
@@ -75,7 +85,26 @@ class Answers : public Reactor {
   }
 
  protected:
-  ~Answers() override = default;
+  using Clock = std::chrono::steady_clock;
+
+  explicit Answers(grpc::ClientContext& context) : context_(context) {}
+
+  // While the other side takes nothing of what is sent, and sends nothing, it is asked whether it is there.
+  void look_for_silence(std::unique_lock<std::mutex>& lock) {
+    if (told_ || received_ || !is_held_up(Clock::now() - heard_)) return;
+    lock.unlock();
+    const bool answers = still_there();
+    lock.lock();
+    heard_ = Clock::now();
+    if (answers || done_) return;
+    silent_ = true;
+    tell();
+  }
+  // Whether something that we send is held up, after so long without a message: gRPC's own pings are, too,
+  // then, and it never says so.
+  virtual bool is_held_up(Clock::duration /*quiet*/) const { return false; }
+  // Asked then, on the thread that waits: whether the other side answers elsewhere.
+  virtual bool still_there() { return true; }
 
   // The call was set up: begins. The hold lets operations begin outside of gRPC's callbacks, until the end of
   // what is received.
@@ -109,12 +138,14 @@ class Answers : public Reactor {
   }
 
   grpc::ClientContext& context_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   Reply message_;
   bool received_ = false;
-  bool ended_ = false;  // no message comes any more
-  bool told_ = false;   // to cancel
+  bool ended_ = false;   // no message comes any more
+  bool told_ = false;    // to cancel
+  bool silent_ = false;  // why: nobody answers
+  Clock::time_point heard_ = Clock::now();
   bool done_ = false;
   grpc::Status status_;
 };
@@ -136,8 +167,10 @@ template <class Request, class Reply>
 class Conversation final : public Answers<grpc::ClientBidiReactor<Request, Reply>, Reply> {
  public:
   using Base = Answers<grpc::ClientBidiReactor<Request, Reply>, Reply>;
+  // still_there: whether the other side answers a call of its own, which it decides soon.
   template <class Start>
-  Conversation(grpc::ClientContext& context, const Start& start) : Base(context) {
+  Conversation(grpc::ClientContext& context, const Start& start, std::function<bool()> still_there)
+      : Base(context), still_there_(std::move(still_there)) {
     start(this);
     this->begin();
   }
@@ -157,6 +190,7 @@ class Conversation final : public Answers<grpc::ClientBidiReactor<Request, Reply
     while (waiting_.size() > most && !this->ended() && !broken_) {
       if (job.cancelled()) this->tell();
       this->changed().wait_for(lock, kCancelInterval);
+      this->look_for_silence(lock);
     }
     return !this->ended() && !broken_;
   }
@@ -167,6 +201,13 @@ class Conversation final : public Answers<grpc::ClientBidiReactor<Request, Reply
     go_on();
   }
 
+ protected:
+  bool is_held_up(typename Base::Clock::duration quiet) const override {
+    return busy_ && quiet > std::chrono::milliseconds(kPingMilliseconds);
+  }
+  bool still_there() override { return still_there_(); }
+
+ public:
   void OnWriteDone(bool good) override {
     const std::unique_lock lock(this->mutex());
     waiting_.pop_front();
@@ -188,6 +229,7 @@ class Conversation final : public Answers<grpc::ClientBidiReactor<Request, Reply
     }
   }
 
+  std::function<bool()> still_there_;
   std::deque<Request> waiting_;  // the first is being sent
   bool busy_ = false;
   bool broken_ = false;

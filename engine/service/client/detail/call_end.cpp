@@ -9,16 +9,17 @@ namespace {
 Error plain_error_of(const grpc::Status& status) {
   switch (status.error_code()) {
     case grpc::StatusCode::CANCELLED:
-      return {ErrorCode::kCancelled, "cancelled"};
+      // Not by this program, which knows what it cancels, nor as a job, which is told with the failure.
+      return {ErrorCode::kEngine, "the engine ends", "start it again with footwall serve"};
     case grpc::StatusCode::UNAUTHENTICATED:
       return {ErrorCode::kInvalid, "the engine does not know this token",
               "use the connection file of the engine that runs now"};
     case grpc::StatusCode::UNAVAILABLE:
+      if (status.error_message().find("keepalive") != std::string::npos) return silent_engine();
       return {ErrorCode::kEngine, "the engine has ended",
               "start it again where it ran, with footwall serve, and run this again"};
     case grpc::StatusCode::DEADLINE_EXCEEDED:
-      return {ErrorCode::kEngine, "the engine does not answer",
-              "footwall status tells whether it is there; stop it and start it again if it is not"};
+      return silent_engine();
     case grpc::StatusCode::UNIMPLEMENTED:
       return {ErrorCode::kUnsupported, "the engine does not have this call: " + status.error_message(),
               "use a Footwall of the same version as the engine"};
@@ -31,6 +32,11 @@ Error plain_error_of(const grpc::Status& status) {
 }
 
 }  // namespace
+
+Error silent_engine() {
+  return {ErrorCode::kEngine, "the engine does not answer: it hangs, or the way to it is broken",
+          "footwall status tells whether it is there; end it and start it again if it is not"};
+}
 
 Error error_of(const grpc::Status& status, const grpc::ClientContext& context) {
   const auto& trailer = context.GetServerTrailingMetadata();

@@ -12,6 +12,8 @@ namespace footwall::service {
 // What a call that did not end well says: the engine's own Error where it sent one; else kCancelled,
 // kInvalid for a token that it does not know, and kEngine where it is gone.
 Error error_of(const grpc::Status& status, const grpc::ClientContext& context);
+// Of an engine that is there, as far as one can tell, and says nothing.
+Error silent_engine();
 void throw_unless_ok(const grpc::Status& status, const grpc::ClientContext& context);
 
 }  // namespace footwall::service

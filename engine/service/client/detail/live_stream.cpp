@@ -14,9 +14,11 @@ namespace {
 class Live final : public EngineClient::LiveStream {
  public:
   Live(v1::Engine::Stub& stub, const std::string& token, v1::LiveRequest first,
-       std::function<void(const v1::LiveReply&)> answer)
+       std::function<void(const v1::LiveReply&)> answer, std::function<bool()> still_there)
       : answer_(std::move(answer)),
-        talk_(prepared(token), [&](auto* reactor) { stub.async()->Live(&context_, reactor); }) {
+        talk_(
+            prepared(token), [&](auto* reactor) { stub.async()->Live(&context_, reactor); },
+            std::move(still_there)) {
     talk_.send(std::move(first));
     listener_ = std::thread([this] { listen(); });
   }
@@ -26,13 +28,19 @@ class Live final : public EngineClient::LiveStream {
     listener_.join();
   }
 
-  void send(const v1::EditBatch& batch) override {
+  bool offer(const v1::EditBatch& batch) override {
     v1::LiveRequest request;
     *request.mutable_batch() = batch;
-    if (talk_.send(std::move(request))) return;
+    return talk_.send(std::move(request));
+  }
+
+  void send(const v1::EditBatch& batch) override {
+    if (offer(batch)) return;
     finish();
     throw Error(ErrorCode::kEngine, "the engine has ended the stream of edits", "open another one");
   }
+
+  bool has_ended() const override { return talk_.done(); }
 
   void finish() override {
     talk_.send_no_more();
@@ -70,8 +78,9 @@ class Live final : public EngineClient::LiveStream {
 
 std::unique_ptr<EngineClient::LiveStream> open_live_stream(v1::Engine::Stub& stub, const std::string& token,
                                                            v1::LiveRequest first,
-                                                           std::function<void(const v1::LiveReply&)> answer) {
-  return std::make_unique<Live>(stub, token, std::move(first), std::move(answer));
+                                                           std::function<void(const v1::LiveReply&)> answer,
+                                                           std::function<bool()> still_there) {
+  return std::make_unique<Live>(stub, token, std::move(first), std::move(answer), std::move(still_there));
 }
 
 }  // namespace footwall::service

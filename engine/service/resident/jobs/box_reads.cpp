@@ -41,13 +41,13 @@ void check_box(const survey::Box& box, const survey::Index& dims) {
 // Parts of the box of at most kSlab values, in the order of the whole: cut along the first axis that has more
 // than one place.
 void for_each_slab(const survey::Box& box, const std::function<void(const survey::Box&)>& visit) {
-  if (box.count() <= kSlab) {
+  const std::int64_t count = box.count();
+  if (count <= kSlab) {
     visit(box);
     return;
   }
   const std::size_t axis = box.size(0) > 1 ? 0 : (box.size(1) > 1 ? 1 : 2);
-  const std::int64_t step =
-      std::max<std::int64_t>(1, kSlab / (box.count() / box.size(static_cast<int>(axis))));
+  const std::int64_t step = std::max<std::int64_t>(1, kSlab * box.size(static_cast<int>(axis)) / count);
   for (std::int64_t at = box.lo[axis]; at < box.hi[axis]; at += step) {
     survey::Box part = box;
     part.lo[axis] = at;

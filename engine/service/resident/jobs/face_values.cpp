@@ -9,6 +9,7 @@
 #include "engine/extract/registry.h"
 #include "engine/voxelize/registry.h"
 #include "storage/base/error.h"
+#include "storage/survey/moved_lattice.h"
 
 namespace footwall::service {
 namespace {
@@ -37,7 +38,7 @@ extract::Options options_of(const v1::FaceVoxelsRequest& request, int threads) {
   return options;
 }
 
-extract::Face face_of(const v1::FaceVoxelsRequest& request) {
+extract::Face face_of(const v1::FaceVoxelsRequest& request, const survey::Index& origin) {
   if (request.corners_size() != 9) {
     throw Error(ErrorCode::kInvalid,
                 fmt::format("a triangle has nine numbers, not {}", request.corners_size()));
@@ -47,6 +48,7 @@ extract::Face face_of(const v1::FaceVoxelsRequest& request) {
     face.triangle[static_cast<std::size_t>(corner)] = {
         request.corners(3 * corner), request.corners(3 * corner + 1), request.corners(3 * corner + 2)};
   }
+  face.triangle = survey::in_volume(face.triangle, origin);
   return face;
 }
 
@@ -58,7 +60,7 @@ void send_face_values(const comm::Communicator& world, extract::LoadedSurvey& su
   extract::Options options;
   const extract::Face face = world.collectively([&] {
     options = options_of(request, threads);
-    return face_of(request);
+    return face_of(request, info.origin);
   });
   const extract::Input input{info.dims, info.statistics.max_abs, std::span(&face, 1)};
   const extract::Result result = survey.extract(input, options, job.part(0, 0.9));
@@ -79,7 +81,8 @@ void send_face_values(const comm::Communicator& world, extract::LoadedSurvey& su
       reply.Clear();
     };
     rows.for_each([&](const survey::Index& voxel) {
-      for (const std::int64_t each : voxel) reply.add_places(static_cast<std::int32_t>(each));
+      for (std::size_t axis = 0; axis < voxel.size(); ++axis)
+        reply.add_places(static_cast<std::int32_t>(voxel[axis] + info.origin[axis]));
       if (!coded) {
         float value = 0;
         std::memcpy(&value, bytes.data() + n * sizeof value, sizeof value);

@@ -10,7 +10,7 @@ namespace footwall::service {
 // Collective, by the way of the computations `voxels` and `lot` of EXTRACT-ALL: the same bytes as a run of
 // the command line keeps. Sends FaceVoxelsReply pieces: places and values (code "voxels", the empty word
 // too), or places and then the code's bytes. Throws on all ranks kUsage (code, voxelizer, ratio), kInvalid
-// (not nine corners), kMemory, kCancelled.
+// (not nine corners, or too far away), kMemory, kCancelled.
 void send_face_values(const comm::Communicator& world, extract::LoadedSurvey& survey,
                       const volume::VolumeInfo& info, const v1::FaceVoxelsRequest& request, int threads,
                       const Send& send, const JobContext& job);

@@ -7,7 +7,9 @@
 #include <cerrno>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "engine/comm/shared_text.h"
 #include "engine/session/attribute.h"
 #include "engine/session/batch.h"
 #include "engine/session/isosurface_job.h"
@@ -44,15 +46,6 @@ class Emptied {
  private:
   path folder_;
 };
-
-std::string text_of(const comm::Bytes& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-std::string shared_text(const comm::Communicator& world, const std::string& text) {
-  const auto raw = std::as_bytes(std::span(text));
-  return text_of(world.broadcast(comm::Bytes(raw.begin(), raw.end()), 0));
-}
 
 std::vector<std::string> names_in(const path& folder) {
   std::vector<std::string> names;
@@ -98,7 +91,7 @@ void refuse_unseen(bool seen, const char* what) {
 }  // namespace
 
 bool all_ranks_see(const comm::Communicator& world, const path& folder) {
-  const std::string name = shared_text(world, world.collectively([&] {
+  const std::string name = comm::shared_text(world, world.collectively([&] {
     if (world.rank() != 0) return std::string();
     const path mark = folder / (".seen-" + std::to_string(::getpid()));
     write_whole_file(mark, "x");
@@ -121,16 +114,27 @@ void run_stored_task(const comm::Communicator& world, const v1::StoredTask& stor
       [&] { return world.rank() == 0 ? unpack_task(task, folder, find_volume) : session::JobFiles{}; });
   const bool seen = all_ranks_see(world, folder / "out");
   const JobContext most = job.part(0, 0.95);
+  // Of a batch job: parts that the client has.
+  std::set<std::string> sent;
 
   // 2. Run it.
   omp_set_num_threads(threads);
   if (task.kind() == "batch") {
+    if (world.rank() == 0) {
+      for (const std::string& name : names_in(folder / "out"))
+        if (name.ends_with(".part.h5")) sent.insert(name);
+    }
     session::BatchOptions options;
     options.threads = threads;
     options.one_writer = !seen;
+    // Parts go as they come, so that the client has them whatever becomes of the rest.
+    options.part_written = [&](const path& part) {
+      send_file(part, part.filename().string(), send, job);
+      sent.insert(part.filename().string());
+    };
     session::run_batch(world, files, folder / "JOB.json", most, options);
   } else {
-    const std::string text = shared_text(world, files.json);
+    const std::string text = comm::shared_text(world, files.json);
     const std::string what = "the task";
     if (task.kind() == "attribute") {
       const auto made = world.collectively([&] {
@@ -160,6 +164,7 @@ void run_stored_task(const comm::Communicator& world, const v1::StoredTask& stor
     if (world.rank() != 0) return;
     const std::vector<std::string> names = names_in(folder / "out");
     for (std::size_t n = 0; n < names.size(); ++n) {
+      if (sent.contains(names[n])) continue;
       job.report(0.95 + 0.05 * static_cast<double>(n) / static_cast<double>(names.size()), "send");
       send_file(folder / "out" / names[n], names[n], send, job);
     }

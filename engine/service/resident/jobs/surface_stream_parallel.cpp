@@ -46,21 +46,24 @@ void in_order(comm::Communicator& world, std::span<const T> own, const Bounds& b
   }
 }
 
-// With its normal, where it is asked for.
-struct Vertex {
-  Point position;
-  Point normal;
+using Vertex = SentSurface::Vertex;
+
+// More than one view shows.
+constexpr std::size_t kKeptSurfaces = 2;
+
+struct Seconds {
+  double read = 0;
+  double extract = 0;
+  double weld = 0;
 };
 
 void add(const Point& point, google::protobuf::RepeatedField<float>& to) {
   for (const float each : {point.i, point.j, point.k}) to.Add(each);
 }
 
-}  // namespace
-
-void send_isosurface(comm::Communicator& world, isosurface::StoredSamples& samples,
-                     const v1::IsosurfaceRequest& request, int threads, const Send& send,
-                     const JobContext& job) {
+SentSurface make_surface(comm::Communicator& world, isosurface::StoredSamples& samples,
+                         const v1::IsosurfaceRequest& request, int threads, const JobContext& job,
+                         Seconds& seconds) {
   const double start = omp_get_wtime();
   // 1. The triangles of each rank's pillars.
   const isosurface::Interleaving cut = world.collectively([&] {
@@ -101,17 +104,53 @@ void send_isosurface(comm::Communicator& world, isosurface::StoredSamples& sampl
   auto vertices = isosurface::collect<Vertex>(world, part.vertex_runs, own, vertex_bounds);
   auto triangles = isosurface::collect<Triangle>(world, part.triangle_runs,
                                                  std::as_const(part.mesh.triangles).all(), triangle_bounds);
-  part.mesh.triangles.release();
-  const double welded = omp_get_wtime();
+  seconds = {extraction.read_seconds, extracted - start, omp_get_wtime() - extracted};
+  return {request.value(),    request.normals(),   isosurface::text_of(cut), part.all_vertices,
+          part.all_triangles, std::move(vertices), std::move(triangles)};
+}
 
-  // 3. All of it through rank 0.
+}  // namespace
+
+std::shared_ptr<const SentSurface> SentSurfaces::find(const v1::IsosurfaceRequest& request) const {
+  const auto found = std::find_if(surfaces_.begin(), surfaces_.end(), [&](const auto& each) {
+    return each->value == request.value() && each->normals == request.normals();
+  });
+  return found == surfaces_.end() ? nullptr : *found;
+}
+
+void SentSurfaces::keep(std::shared_ptr<const SentSurface> surface) {
+  surfaces_.remove(surface);
+  if (surfaces_.size() == kKeptSurfaces) surfaces_.pop_back();
+  surfaces_.push_front(std::move(surface));
+}
+
+std::int64_t SentSurfaces::memory_bytes() const {
+  std::size_t bytes = 0;
+  for (const auto& each : surfaces_) bytes += each->vertices.room_bytes() + each->triangles.room_bytes();
+  return static_cast<std::int64_t>(bytes);
+}
+
+void send_isosurface(comm::Communicator& world, isosurface::StoredSamples& samples,
+                     const v1::IsosurfaceRequest& request, int threads, const Send& send,
+                     const JobContext& job, SentSurfaces* kept) {
+  const double start = omp_get_wtime();
+  Seconds spent;
+  std::shared_ptr<const SentSurface> surface = kept == nullptr ? nullptr : kept->find(request);
+  if (!surface)
+    surface = std::make_shared<SentSurface>(make_surface(world, samples, request, threads, job, spent));
+  const double begun = omp_get_wtime();
+
+  // All of it through rank 0.
+  const Bounds vertex_bounds = isosurface::even_bounds(surface->all_vertices, world.size());
+  const Bounds triangle_bounds = isosurface::even_bounds(surface->all_triangles, world.size());
   std::uint64_t sent = 0;
-  const double all = static_cast<double>(std::max<std::uint64_t>(1, part.all_vertices + part.all_triangles));
+  const double all =
+      static_cast<double>(std::max<std::uint64_t>(1, surface->all_vertices + surface->all_triangles));
   const auto report = [&](std::size_t more) {
     sent += more;
     job.report(0.75 + 0.25 * static_cast<double>(sent) / all, "send");
   };
-  in_order<Vertex>(world, std::as_const(vertices).all(), vertex_bounds, [&](std::span<const Vertex> piece) {
+  in_order<Vertex>(world, surface->vertices.all(), vertex_bounds, [&](std::span<const Vertex> piece) {
     v1::IsosurfaceReply reply;
     for (const Vertex& each : piece) {
       add(each.position, *reply.mutable_piece()->mutable_positions());
@@ -120,34 +159,35 @@ void send_isosurface(comm::Communicator& world, isosurface::StoredSamples& sampl
     report(piece.size());
     send(reply);
   });
-  in_order<Triangle>(world, std::as_const(triangles).all(), triangle_bounds,
-                     [&](std::span<const Triangle> piece) {
-                       v1::IsosurfaceReply reply;
-                       for (const Triangle& each : piece) {
-                         for (const std::uint32_t vertex : each) reply.mutable_piece()->add_triangles(vertex);
-                       }
-                       report(piece.size());
-                       send(reply);
-                     });
+  in_order<Triangle>(world, surface->triangles.all(), triangle_bounds, [&](std::span<const Triangle> piece) {
+    v1::IsosurfaceReply reply;
+    for (const Triangle& each : piece) {
+      for (const std::uint32_t vertex : each) reply.mutable_piece()->add_triangles(vertex);
+    }
+    report(piece.size());
+    send(reply);
+  });
 
-  // 4. What it was.
+  if (kept != nullptr) kept->keep(surface);
+
+  // What it was.
   nlohmann::json seconds;
   const auto slowest = [&](const char* phase, double mine) { seconds[phase] = world.maximum(mine); };
-  slowest("read", extraction.read_seconds);
-  slowest("extract", extracted - start);
-  slowest("weld", welded - extracted);
-  slowest("send", omp_get_wtime() - welded);
+  slowest("read", spent.read);
+  slowest("extract", spent.extract);
+  slowest("weld", spent.weld);
+  slowest("send", omp_get_wtime() - begun);
   slowest("total", omp_get_wtime() - start);
   world.collectively([&] {
     if (world.rank() != 0) return;
     v1::IsosurfaceReply reply;
-    reply.mutable_done()->set_vertices(part.all_vertices);
-    reply.mutable_done()->set_triangles(part.all_triangles);
+    reply.mutable_done()->set_vertices(surface->all_vertices);
+    reply.mutable_done()->set_triangles(surface->all_triangles);
     const nlohmann::json json{{"ranks", world.size()},
                               {"threads", threads},
-                              {"pillars", isosurface::text_of(cut)},
-                              {"vertices", part.all_vertices},
-                              {"triangles", part.all_triangles},
+                              {"pillars", surface->cut},
+                              {"vertices", surface->all_vertices},
+                              {"triangles", surface->all_triangles},
                               {"seconds", seconds}};
     reply.mutable_done()->set_report_json(json.dump());
     send(reply);

@@ -9,11 +9,11 @@
 #include <openssl/rand.h>
 #include <openssl/x509.h>
 #include <openssl/x509v3.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <ctime>
 #include <memory>
 
 #include "engine/service/server/private_folder.h"
@@ -54,6 +54,19 @@ std::string text_of(BIO& bio) {
   char* data = nullptr;
   const long size = BIO_get_mem_data(&bio, &data);
   return {data, static_cast<std::size_t>(size)};
+}
+
+std::string text_of(EVP_PKEY& key) {
+  const Bio text(BIO_new(BIO_s_mem()));
+  need(text && PEM_write_bio_PKCS8PrivateKey(text.get(), &key, nullptr, nullptr, 0, nullptr, nullptr) == 1,
+       "write a key");
+  return text_of(*text);
+}
+
+std::string text_of(X509& certificate) {
+  const Bio text(BIO_new(BIO_s_mem()));
+  need(text && PEM_write_bio_X509(text.get(), &certificate) == 1, "write a certificate");
+  return text_of(*text);
 }
 
 X509Certificate certificate_from(const std::string& pem) {
@@ -98,8 +111,9 @@ X509Certificate self_signed(EVP_PKEY& key) {
   return certificate;
 }
 
-// Mode 0600 from the first byte, whole or not at all.
-void write_secret(const std::filesystem::path& path, const std::string& text) {
+// Mode 0600 from the first byte, whole or not at all. is_first: what another engine has written meanwhile
+// stays.
+void write_secret(const std::filesystem::path& path, const std::string& text, bool is_first) {
   PartialFile partial(path);
   const std::string name = partial.path().string();
   const int file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
@@ -109,30 +123,51 @@ void write_secret(const std::filesystem::path& path, const std::string& text) {
   ::close(file);
   if (trouble != 0) throw io_error("write", name, trouble);
   if (written != static_cast<ssize_t>(text.size())) throw io_error("write", name, ENOSPC);
-  partial.commit();
+  if (!is_first) {
+    partial.commit();
+  } else if (::link(name.c_str(), path.c_str()) != 0 && errno != EEXIST) {
+    throw io_error("write", path.string(), errno);
+  }
 }
 
-void make(const std::filesystem::path& key_path, const std::filesystem::path& certificate_path) {
+std::string made_pem() {
   const Key key(EVP_EC_gen("P-256"));
   need(key != nullptr, "make a key");
   const X509Certificate certificate = self_signed(*key);
-  const Bio key_text(BIO_new(BIO_s_mem()));
-  const Bio certificate_text(BIO_new(BIO_s_mem()));
-  need(key_text && certificate_text, "write to memory");
-  need(PEM_write_bio_PKCS8PrivateKey(key_text.get(), key.get(), nullptr, nullptr, 0, nullptr, nullptr) == 1 &&
-           PEM_write_bio_X509(certificate_text.get(), certificate.get()) == 1,
-       "write a certificate");
-  write_secret(key_path, text_of(*key_text));
-  write_secret(certificate_path, text_of(*certificate_text));
+  return text_of(*key) + text_of(*certificate);
 }
 
-bool expires_soon(const X509& certificate) {
-  std::time_t then = std::time(nullptr) + kRenewSeconds;
+// Throws kUsage where others may know what stands in it, or could have written it.
+std::string read_secret(const std::filesystem::path& path) {
+  struct stat facts = {};
+  if (::lstat(path.c_str(), &facts) != 0) throw io_error("look at", path.string(), errno);
+  if (!S_ISREG(facts.st_mode) || facts.st_uid != ::geteuid() || (facts.st_mode & 077U) != 0) {
+    throw Error(ErrorCode::kUsage, fmt::format("the engine's key {} is not yours alone", path.string()),
+                "others may know it: remove it, and a new one is made");
+  }
+  return read_whole_file(path, kLargestFile);
+}
+
+bool expires_soon(const X509& certificate, std::time_t now) {
+  std::time_t then = now + kRenewSeconds;
   return X509_cmp_time(X509_get0_notAfter(&certificate), &then) < 0;
 }
 
-Certificate read(const std::filesystem::path& key_path, const std::filesystem::path& certificate_path) {
-  return {read_whole_file(key_path, kLargestFile), read_whole_file(certificate_path, kLargestFile), {}};
+struct Pair {
+  Key key;
+  X509Certificate certificate;
+};
+
+Pair read(const std::filesystem::path& path) {
+  const std::string pem = read_secret(path);
+  Pair pair{Key(PEM_read_bio_PrivateKey(reader(pem).get(), nullptr, nullptr, nullptr)),
+            X509Certificate(PEM_read_bio_X509(reader(pem).get(), nullptr, nullptr, nullptr))};
+  if (!pair.key || !pair.certificate || X509_check_private_key(pair.certificate.get(), pair.key.get()) != 1) {
+    throw Error(ErrorCode::kCorrupt,
+                fmt::format("{} is no key with a certificate that belongs to it", path.string()),
+                "remove it: a new one is made");
+  }
+  return pair;
 }
 
 }  // namespace
@@ -147,24 +182,18 @@ std::string fingerprint_of(const std::string& pem) {
   return text;
 }
 
-Certificate engine_certificate(const std::filesystem::path& folder) {
+Certificate engine_certificate(const std::filesystem::path& folder, std::time_t now) {
+  std::error_code failure;  // require_private_folder() tells
+  std::filesystem::create_directories(folder.parent_path(), failure);
   require_private_folder(folder);
-  const std::filesystem::path key_path = folder / "key.pem";
-  const std::filesystem::path certificate_path = folder / "certificate.pem";
-  if (!exists(key_path) && !exists(certificate_path)) make(key_path, certificate_path);
-  Certificate made = read(key_path, certificate_path);
-  X509Certificate certificate = certificate_from(made.certificate);
-  if (expires_soon(*certificate)) {
-    make(key_path, certificate_path);
-    made = read(key_path, certificate_path);
-    certificate = certificate_from(made.certificate);
+  const std::filesystem::path path = folder / "engine.pem";
+  if (!std::filesystem::exists(std::filesystem::symlink_status(path))) write_secret(path, made_pem(), true);
+  Pair pair = read(path);
+  if (expires_soon(*pair.certificate, now)) {
+    write_secret(path, made_pem(), false);
+    pair = read(path);
   }
-  const Key key(PEM_read_bio_PrivateKey(reader(made.key).get(), nullptr, nullptr, nullptr));
-  if (!key || X509_check_private_key(certificate.get(), key.get()) != 1) {
-    throw Error(ErrorCode::kCorrupt,
-                fmt::format("{} and {} do not belong together", key_path.string(), certificate_path.string()),
-                "remove both: new ones are made");
-  }
+  Certificate made{text_of(*pair.key), text_of(*pair.certificate), {}};
   made.fingerprint = fingerprint_of(made.certificate);
   return made;
 }

@@ -1,12 +1,26 @@
 #include "engine/service/server/detail/door.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "engine/service/server/requests/failure.h"
 #include "engine/service/server/requests/methods.h"
 #include "engine/service/words_on_the_wire.h"
 
 namespace footwall::service {
+namespace {
+
+std::optional<Error> meant_for_another(const grpc::CallbackServerContext& context) {
+  const auto found = context.client_metadata().find(kProcessMetadata);
+  if (found == context.client_metadata().end() ||
+      std::string_view(found->second.data(), found->second.size()) == std::to_string(::getpid())) {
+    return std::nullopt;
+  }
+  return Error(ErrorCode::kEngine, "the engine was started again since",
+               "ask what it holds now, and tell it what it should");
+}
+
+}  // namespace
 
 Door::Door(const std::string& token, const ServerLimits& limits, std::shared_ptr<Services> services)
     : token_(token),
@@ -41,6 +55,7 @@ grpc::ServerGenericBidiReactor* Door::CreateReactor(grpc::GenericCallbackServerC
         streams_.erase(&done);
       });
   std::optional<Error> refusal = take_in(stream);
+  if (!refusal) refusal = meant_for_another(*context);
   std::shared_ptr<Request> request;
   if (!refusal) {
     request = make_request(context->method(), services_, stream);

@@ -194,7 +194,7 @@ void Stream::go_on() {
   if (!keep || writing_ || asking_ > 0 || finished_ || context_ == nullptr) return;
   if (!outbox_.empty()) {
     writing_ = true;
-    outgoing_ = std::move(outbox_.front());
+    outgoing_.Swap(&outbox_.front());
     outbox_.pop_front();
     lock.unlock();
     StartWrite(&outgoing_);

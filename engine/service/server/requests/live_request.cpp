@@ -5,26 +5,24 @@ namespace {
 
 // Of edits that wait: beyond it the client is not read until the ranks took them.
 constexpr std::int64_t kMostGathered = std::int64_t{64} << 20;
-// What even an empty one takes.
-constexpr std::int64_t kPerBatch = 256;
 
 }  // namespace
 
 void LiveRequest::received(google::protobuf::io::ZeroCopyInputStream& bytes, std::int64_t size) {
   v1::LiveRequest message;
-  parse(bytes, message);
-  remember(size);
+  const std::int64_t memory = unpack(bytes, size, message);
+  if (!message.has_batch()) give_back(memory);
   bool pause = false;
   {
     const std::scoped_lock lock(mutex_);
-    take(message, size);
+    take(message, memory);
     pause = reading_paused_ = gathered_bytes_ > kMostGathered;
   }
   wait_for_turn();
   if (!pause) reply_->read_on();
 }
 
-void LiveRequest::take(v1::LiveRequest& message, std::int64_t size) {
+void LiveRequest::take(v1::LiveRequest& message, std::int64_t memory) {
   if (!begun_) {
     if (message.volume().empty())
       throw Error(ErrorCode::kInvalid, "the first message of Live names no volume",
@@ -39,7 +37,7 @@ void LiveRequest::take(v1::LiveRequest& message, std::int64_t size) {
   if (!message.has_batch()) return;
   if (gathered_.batches().empty()) oldest_ = Clock::now();
   gathered_.add_batches()->Swap(message.mutable_batch());
-  gathered_bytes_ += size + kPerBatch;
+  gathered_bytes_ += memory;
 }
 
 void LiveRequest::wait_for_turn() {

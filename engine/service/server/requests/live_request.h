@@ -19,7 +19,7 @@ class LiveRequest final : public RankCall {
 
  private:
   enum class Turn : std::uint8_t { kIdle, kInQueue };
-  void take(v1::LiveRequest& message, std::int64_t size);
+  void take(v1::LiveRequest& message, std::int64_t memory);
   // Into the queue, where edits wait and the call does not. Throws what push() throws.
   void wait_for_turn();
 
@@ -29,7 +29,7 @@ class LiveRequest final : public RankCall {
   bool all_said_ = false;
   bool reading_paused_ = false;
   v1::LiveStep gathered_;
-  std::int64_t gathered_bytes_ = 0;
+  std::int64_t gathered_bytes_ = 0;  // in memory
   Clock::time_point oldest_;
 };
 

@@ -23,7 +23,7 @@ survey::Geometry geometry_from(const std::string& text) {
     return survey::geometry_from_json(nlohmann::json::parse(text));
   } catch (const nlohmann::json::exception& error) {
     throw Error(ErrorCode::kInvalid, fmt::format("geometry_json is no survey's geometry: {}", error.what()),
-                "give it as `footwall info --json` prints it");
+                "give it as storage/survey/geometry_json.h has it; the Python package does");
   }
 }
 
@@ -108,9 +108,8 @@ v1::Triangulation triangulate(const v1::TriangulateRequest& request, const JobCo
 }
 
 void PillarRequest::received(google::protobuf::io::ZeroCopyInputStream& bytes, std::int64_t size) {
-  remember(size);
   request_ = new_message(*method_.input_type());
-  parse(bytes, *request_);
+  unpack(bytes, size, *request_);
   home().push(shared_from_this());
 }
 

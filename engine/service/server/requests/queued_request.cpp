@@ -26,8 +26,8 @@ QueuedRequest::QueuedRequest(const google::protobuf::MethodDescriptor& method,
 }
 
 void QueuedRequest::received(google::protobuf::io::ZeroCopyInputStream& bytes, std::int64_t size) {
-  remember(size);
-  parse(bytes, *command_.GetReflection()->MutableMessage(&command_, command_of(*method_.input_type())));
+  unpack(bytes, size,
+         *command_.GetReflection()->MutableMessage(&command_, command_of(*method_.input_type())));
   if (turn_ == Turn::kBetweenSlices) {
     services_->queue.push_read(shared_from_this());
   } else {

@@ -1,10 +1,10 @@
 #include "engine/service/server/requests/rank_call.h"
 
 #include <fmt/format.h>
-#include <google/protobuf/stubs/logging.h>
 
 #include "engine/service/engine.pb.h"
 #include "engine/service/server/requests/failure.h"
+#include "engine/service/server/requests/parcel.h"
 
 namespace footwall::service {
 namespace {
@@ -16,15 +16,6 @@ constexpr std::int64_t kMostWaitingBytes = std::int64_t{1} << 30;
 std::unique_ptr<google::protobuf::Message> new_message(const google::protobuf::Descriptor& type) {
   return std::unique_ptr<google::protobuf::Message>(
       google::protobuf::MessageFactory::generated_factory()->GetPrototype(&type)->New());
-}
-
-void parse(google::protobuf::io::ZeroCopyInputStream& bytes, google::protobuf::Message& into) {
-  {
-    const google::protobuf::LogSilencer quiet;  // clients' bytes would fill the log
-    if (into.ParseFromZeroCopyStream(&bytes)) return;
-  }
-  throw Error(ErrorCode::kInvalid, fmt::format("the message is not a {}", into.GetDescriptor()->name()),
-              "client and engine may be of different versions");
 }
 
 RankCall::RankCall(const google::protobuf::MethodDescriptor& method, std::shared_ptr<Services> services,
@@ -67,11 +58,24 @@ void RankCall::progressed(const State& state) {
   reply_->hint(*message);
 }
 
+std::int64_t RankCall::unpack(google::protobuf::io::ZeroCopyInputStream& bytes, std::int64_t size,
+                              google::protobuf::Message& into) {
+  const Parcel parcel(bytes, size, *into.GetDescriptor());
+  remember(parcel.memory_bytes());
+  parcel.unpack(into);
+  return parcel.memory_bytes();
+}
+
 void RankCall::remember(std::int64_t bytes) {
   remembered_ += bytes;
   if (services_->waiting_bytes.fetch_add(bytes) + bytes <= kMostWaitingBytes) return;
   throw Error(ErrorCode::kMemory, "the calls that wait for the engine hold too much already",
               "wait for some of them, or cancel them");
+}
+
+void RankCall::give_back(std::int64_t bytes) noexcept {
+  remembered_ -= bytes;
+  services_->waiting_bytes -= bytes;
 }
 
 void RankCall::forget() noexcept {

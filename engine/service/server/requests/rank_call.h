@@ -14,8 +14,6 @@ namespace footwall::service {
 
 // An empty message of the type.
 std::unique_ptr<google::protobuf::Message> new_message(const google::protobuf::Descriptor& type);
-// Throws Error kInvalid where the bytes are no such message.
-void parse(google::protobuf::io::ZeroCopyInputStream& bytes, google::protobuf::Message& into);
 
 class RankCall : public Call, public Request, public std::enable_shared_from_this<RankCall> {
  public:
@@ -29,10 +27,16 @@ class RankCall : public Call, public Request, public std::enable_shared_from_thi
 
  protected:
   void progressed(const State& state) override;
+  // Unpacks a message whose memory waits until the call is gone or forget() is called. How much that is.
+  // Throws as Parcel, and as remember().
+  std::int64_t unpack(google::protobuf::io::ZeroCopyInputStream& bytes, std::int64_t size,
+                      google::protobuf::Message& into);
   // Counts bytes that wait until the call is gone or forget() is called; throws Error kMemory where all calls
   // together have too many.
   void remember(std::int64_t bytes);
   void forget() noexcept;
+  // Some of what was remembered.
+  void give_back(std::int64_t bytes) noexcept;
   // The queue that the call waits in.
   virtual CallQueue& home() { return services_->queue; }
 

@@ -4,6 +4,7 @@
 
 #include "engine/service/engine.pb.h"
 #include "engine/service/server/requests/failure.h"
+#include "engine/service/server/requests/parcel.h"
 
 namespace footwall::service {
 namespace {
@@ -32,6 +33,7 @@ void tell_ranks(const ResidentStatus& status, v1::StatusReply& reply) {
     rank.set_host(utf8_of(status.ranks[n].host));
     rank.set_process(status.ranks[n].process);
     rank.set_memory_bytes(status.ranks[n].memory_bytes);
+    if (status.ranks[n].start_seconds) rank.set_start_seconds(*status.ranks[n].start_seconds);
   }
   if (status.ranks.empty()) return;
   reply.set_host(utf8_of(status.ranks.front().host));
@@ -71,9 +73,9 @@ ImmediateRequest::ImmediateRequest(const google::protobuf::MethodDescriptor& met
                                    std::shared_ptr<Reply> reply, Answer answer, std::function<void()> after)
     : method_(method), reply_(std::move(reply)), answer_(std::move(answer)), after_(std::move(after)) {}
 
-void ImmediateRequest::received(google::protobuf::io::ZeroCopyInputStream& bytes, std::int64_t /*size*/) {
+void ImmediateRequest::received(google::protobuf::io::ZeroCopyInputStream& bytes, std::int64_t size) {
   const auto request = new_message(*method_.input_type());
-  parse(bytes, *request);
+  Parcel(bytes, size, *method_.input_type()).unpack(*request);
   const auto reply = new_message(*method_.output_type());
   answer_(*request, *reply);
   reply_->send(*reply, {});

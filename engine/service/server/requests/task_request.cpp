@@ -1,14 +1,18 @@
 #include "engine/service/server/requests/task_request.h"
 
+#include "engine/service/server/requests/parcel.h"
+
 namespace footwall::service {
 
 void TaskRequest::received(google::protobuf::io::ZeroCopyInputStream& bytes, std::int64_t size) {
   v1::TaskInput input;
-  parse(bytes, input);
+  // Only the task is kept; the files go to the disk at once.
+  const Parcel parcel(bytes, size, *input.GetDescriptor());
+  parcel.unpack(input);
   if (input.has_task() == (folder_ != nullptr))
     throw Error(ErrorCode::kInvalid, "the task comes first, once, and then its files");
   if (input.has_task()) {
-    remember(size);
+    remember(parcel.memory_bytes());
     folder_ = std::make_unique<TaskFolder>(services_->scratch);
     task_.mutable_task()->Swap(input.mutable_task());
     task_.set_folder(folder_->path().string());
