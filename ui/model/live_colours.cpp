@@ -137,47 +137,50 @@ void LiveColours::work() {
     job_ = JobContext();
     const JobContext job = job_;
     lock.unlock();
+    bool served = false;
+    const auto serve_with = [&](service::EngineClient& client, const service::Connection& connection) {
+      const int ranks = client.status().ranks();
+      {
+        const std::scoped_lock guard(mutex_);
+        reached_ = connection;
+      }
+      served = true;
+      say(EngineLink::State::kReady, fmt::format("{} rank{}", ranks, ranks == 1 ? "" : "s"));
+      serve(client);
+    };
     try {
       say(EngineLink::State::kStarting);
-      std::shared_ptr<service::EngineClient> client;
       if (given_) {
-        client = std::make_shared<service::EngineClient>(*given_);
+        service::EngineClient client(*given_);
+        serve_with(client, *given_);
       } else {
         session::LaunchOptions launch;
         launch.ranks = ranks_;
         if (local == nullptr) local = std::make_unique<service::LocalEngine>(launch, service::LocalEngine::Replay{});
-        client = local->client(job);
+        local->with_engine([&](service::EngineClient& client) { serve_with(client, local->connection()); }, job);
       }
-      const int ranks = client->status().ranks();
-      lock.lock();
-      reached_ = given_ ? given_ : std::optional(local->connection());
-      lock.unlock();
-      say(EngineLink::State::kReady, fmt::format("{} rank{}", ranks, ranks == 1 ? "" : "s"));
-      serve(*client);
+      forget_connection();
+      local.reset();
       say(EngineLink::State::kOff);
-      if (!given_) local.reset();
     } catch (const Error& error) {
+      forget_connection();
       lock.lock();
-      reached_.reset();
       const bool told_to = ends_ || !wanted_;
-      // A local engine that died is started again at once; LocalEngine gives up after three deaths in a minute.
-      const bool again = !told_to && !given_ && local != nullptr && !local->is_running() && local->starts() > 0 &&
-                         error.message().find("three times") == std::string::npos &&
-                         error.code() == ErrorCode::kEngine;
+      // An engine that had served and died is started again; LocalEngine gives up after three deaths in a minute.
+      const bool again = !told_to && !given_ && served && error.code() == ErrorCode::kEngine;
       if (!told_to && !again) wanted_ = false;
       lock.unlock();
-      if (told_to) {
-        local.reset();
-        say(EngineLink::State::kOff);
-      } else {
-        say(EngineLink::State::kLost, error.message());
-        if (!again) {
-          local.reset();
-          events_.failed(error.message(), error.hint());
-        }
-      }
+      if (again) continue;
+      local.reset();
+      say(told_to ? EngineLink::State::kOff : EngineLink::State::kLost, told_to ? std::string() : error.message());
+      if (!told_to) events_.failed(error.message(), error.hint());
     }
   }
+}
+
+void LiveColours::forget_connection() {
+  const std::scoped_lock lock(mutex_);
+  reached_.reset();
 }
 
 bool LiveColours::has_work() const {
@@ -230,7 +233,8 @@ void LiveColours::serve(service::EngineClient& client) {
       };
       if (!wake_.wait_for(lock, kLook, ready)) {
         lock.unlock();
-        client.status();  // throws when the engine is gone
+        if (live->has_ended()) live->finish();  // throws why
+        client.status();                        // throws when the engine is gone
         lock.lock();
         continue;
       }

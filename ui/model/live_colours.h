@@ -61,6 +61,7 @@ class LiveColours {
   struct Session;
   void work();
   void serve(service::EngineClient& client);
+  void forget_connection();
   bool has_work() const;  // mutex_ is held
   void say(EngineLink::State state, const std::string& text = {});
 
