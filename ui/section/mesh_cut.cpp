@@ -1,0 +1,75 @@
+#include "ui/section/mesh_cut.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace footwall::ui {
+namespace {
+
+class Cutting {
+ public:
+  Cutting(const Section& section, std::span<const survey::IndexPoint> places)
+      : section_(section), places_(places) {
+    distances_.reserve(places.size());
+    for (const survey::IndexPoint& p : places) distances_.push_back(distance_from(section, p));
+  }
+
+  void add(const std::array<std::int32_t, 3>& corners) {
+    const auto count = static_cast<std::int32_t>(places_.size());
+    if (std::ranges::any_of(corners, [count](std::int32_t c) { return c < 0 || c >= count; })) return;
+    std::array<double, 3> d{};
+    for (int n = 0; n < 3; ++n) d[n] = distances_[static_cast<std::size_t>(corners[n])];
+    if (std::ranges::all_of(d, [](double x) { return x > 0; }) ||
+        std::ranges::all_of(d, [](double x) { return x < 0; })) {
+      return;
+    }
+    std::array<PlanePoint, 3> ends;
+    int found = 0;
+    for (int n = 0; n < 3; ++n) {
+      const int next = (n + 1) % 3;
+      if (d[n] == 0 && d[next] == 0) add_edge(corners[n], corners[next]);
+      if (d[n] == 0) ends[found++] = plane_of(section_, places_[static_cast<std::size_t>(corners[n])]);
+      if ((d[n] < 0) != (d[next] < 0) && d[n] != 0 && d[next] != 0)
+        ends[found++] = crossing(corners[n], corners[next]);
+    }
+    const auto zeros = std::ranges::count(d, 0.0);
+    if (found == 2 && zeros < 2) segments_.push_back({ends[0], ends[1]});
+  }
+
+  std::vector<CutSegment> take() { return std::move(segments_); }
+
+ private:
+  // Both faces of an edge find the same point.
+  PlanePoint crossing(std::int32_t a, std::int32_t b) const {
+    if (a > b) std::swap(a, b);
+    const double from = distances_[static_cast<std::size_t>(a)];
+    const double part = from / (from - distances_[static_cast<std::size_t>(b)]);
+    const PlanePoint p = plane_of(section_, places_[static_cast<std::size_t>(a)]);
+    const PlanePoint q = plane_of(section_, places_[static_cast<std::size_t>(b)]);
+    return {p.u + part * (q.u - p.u), p.v + part * (q.v - p.v)};
+  }
+
+  void add_edge(std::int32_t a, std::int32_t b) {
+    if (!edges_.insert(std::minmax(a, b)).second) return;
+    segments_.push_back({plane_of(section_, places_[static_cast<std::size_t>(a)]),
+                         plane_of(section_, places_[static_cast<std::size_t>(b)])});
+  }
+
+  const Section& section_;
+  std::span<const survey::IndexPoint> places_;
+  std::vector<double> distances_;
+  std::set<std::pair<std::int32_t, std::int32_t>> edges_;
+  std::vector<CutSegment> segments_;
+};
+
+}  // namespace
+
+std::vector<CutSegment> mesh_cut(const Section& section, std::span<const survey::IndexPoint> places,
+                                 std::span<const project::MeshFace> faces) {
+  Cutting cutting(section, places);
+  for (const project::MeshFace& face : faces) cutting.add(face.vertices);
+  return cutting.take();
+}
+
+}  // namespace footwall::ui

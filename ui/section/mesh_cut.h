@@ -1,0 +1,20 @@
+// Where a triangle mesh passes through a section.
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "ui/model/section.h"
+#include "ui/model/surfaces.h"
+
+namespace footwall::ui {
+
+using CutSegment = std::array<PlanePoint, 2>;
+
+// The closed triangles' common points with the plane, without those that are single points: each crossing as
+// a segment, an edge that lies in the plane once, a face that lies in it as its edges. No ends beyond those
+// of a line section unless the triangle reaches there; the caller cuts off what it does not show.
+std::vector<CutSegment> mesh_cut(const Section& section, std::span<const survey::IndexPoint> places,
+                                 std::span<const project::MeshFace> faces);
+
+}  // namespace footwall::ui
