@@ -190,8 +190,12 @@ void SectionReader::State::answer_failure(const Request& request, const QString&
                                           const QString& hint) {
   QMetaObject::invokeMethod(
       &owner,
-      [this, asker = request.alive, message, hint] {
-        if (asker) Q_EMIT owner.failed(asker, message, hint);
+      [this, request, message, hint] {
+        // What was asked for before is of no interest any more.
+        const auto last = last_asked.find(request.asker);
+        const bool is_newest =
+            last != last_asked.end() && last->second == std::pair(request.volume, request.section);
+        if (request.alive && is_newest) Q_EMIT owner.failed(request.alive, message, hint);
       },
       Qt::QueuedConnection);
 }

@@ -86,7 +86,8 @@ FaultShapes::Hit FaultShapes::hit(const QPointF& mouse, const ViewTransform& vie
     }
     for (const CutSegment& segment : shape.cut) {
       if (is_nearer(distance_to(line_of(segment[0], segment[1], view), mouse), nearest_cut)) {
-        cut = {{.kind = Item::Kind::kFault, .id = id}, -1};
+        const project::MeshFace& face = shape.surface->faces[segment.face];
+        cut = {{.kind = Item::Kind::kFace, .id = id, .panel = face.panel, .number = face.n}, -1};
       }
     }
   }

@@ -40,7 +40,8 @@ class FaultShapes {
   void forget(const std::set<Id>& faults);
   const ShapedFault& of(Id fault);
 
-  // What lies under the mouse within reach, nodes before pillars before cuts; of faults that are shown.
+  // What lies under the mouse within reach, nodes before pillars before the faces cut; of faults that are
+  // shown.
   struct Hit {
     Item item;
     int segment = -1;  // of a pillar

@@ -15,7 +15,7 @@ class Cutting {
     for (const survey::IndexPoint& p : places) distances_.push_back(distance_from(section, p));
   }
 
-  void add(const std::array<std::int32_t, 3>& corners) {
+  void add(const std::array<std::int32_t, 3>& corners, std::size_t face) {
     const auto count = static_cast<std::int32_t>(places_.size());
     if (std::ranges::any_of(corners, [count](std::int32_t c) { return c < 0 || c >= count; })) return;
     std::array<double, 3> d{};
@@ -28,13 +28,13 @@ class Cutting {
     int found = 0;
     for (int n = 0; n < 3; ++n) {
       const int next = (n + 1) % 3;
-      if (d[n] == 0 && d[next] == 0) add_edge(corners[n], corners[next]);
+      if (d[n] == 0 && d[next] == 0) add_edge(corners[n], corners[next], face);
       if (d[n] == 0) ends[found++] = plane_of(section_, places_[static_cast<std::size_t>(corners[n])]);
       if ((d[n] < 0) != (d[next] < 0) && d[n] != 0 && d[next] != 0)
         ends[found++] = crossing(corners[n], corners[next]);
     }
     const auto zeros = std::ranges::count(d, 0.0);
-    if (found == 2 && zeros < 2) segments_.push_back({ends[0], ends[1]});
+    if (found == 2 && zeros < 2) segments_.push_back({{ends[0], ends[1]}, face});
   }
 
   std::vector<CutSegment> take() { return std::move(segments_); }
@@ -50,10 +50,11 @@ class Cutting {
     return {p.u + part * (q.u - p.u), p.v + part * (q.v - p.v)};
   }
 
-  void add_edge(std::int32_t a, std::int32_t b) {
+  void add_edge(std::int32_t a, std::int32_t b, std::size_t face) {
     if (!edges_.insert(std::minmax(a, b)).second) return;
-    segments_.push_back({plane_of(section_, places_[static_cast<std::size_t>(a)]),
-                         plane_of(section_, places_[static_cast<std::size_t>(b)])});
+    segments_.push_back({{plane_of(section_, places_[static_cast<std::size_t>(a)]),
+                          plane_of(section_, places_[static_cast<std::size_t>(b)])},
+                         face});
   }
 
   const Section& section_;
@@ -68,7 +69,7 @@ class Cutting {
 std::vector<CutSegment> mesh_cut(const Section& section, std::span<const survey::IndexPoint> places,
                                  std::span<const project::MeshFace> faces) {
   Cutting cutting(section, places);
-  for (const project::MeshFace& face : faces) cutting.add(face.vertices);
+  for (std::size_t n = 0; n < faces.size(); ++n) cutting.add(faces[n].vertices, n);
   return cutting.take();
 }
 

@@ -9,7 +9,13 @@
 
 namespace footwall::ui {
 
-using CutSegment = std::array<PlanePoint, 2>;
+struct CutSegment {
+  std::array<PlanePoint, 2> ends;
+  std::size_t face = 0;  // the place in `faces` of one that it lies in
+  const PlanePoint& operator[](std::size_t n) const { return ends[n]; }
+  auto begin() const { return ends.begin(); }
+  auto end() const { return ends.end(); }
+};
 
 // The closed triangles' common points with the plane, without those that are single points: each crossing as
 // a segment, an edge that lies in the plane once, a face that lies in it as its edges. No ends beyond those

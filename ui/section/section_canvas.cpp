@@ -176,6 +176,8 @@ void SectionCanvas::take_samples(std::shared_ptr<const SectionSamples> samples) 
   if (samples->section != section_ || samples->volume != bench_.display.volume()) return;
   late_.stop();
   is_late_ = false;
+  failure_.clear();
+  failure_hint_.clear();
   samples_ = std::move(samples);
   redraw_base();
   show_message();

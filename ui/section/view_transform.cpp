@@ -17,11 +17,11 @@ double usable(double metres) {
   return std::isfinite(metres) && metres > 0 ? metres : 1;
 }
 
-// The largest of 1, 1.5, 2, 3, 4, 5, 6, 8 x 10^n that is not above.
+// The largest of a few round numbers x 10^n that is not above.
 double round_down(double factor) {
   const double decade = std::pow(10.0, std::floor(std::log10(factor)));
   double best = decade;
-  for (const double digit : {1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+  for (const double digit : {1.2, 1.5, 1.8, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0}) {
     if (digit * decade <= factor * (1 + 1e-9)) best = digit * decade;
   }
   return best;

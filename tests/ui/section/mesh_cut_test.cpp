@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "ui/section/fault_shapes.h"
 #include "ui/test_class.h"
 
 namespace footwall::ui {
@@ -68,6 +69,7 @@ class MeshCutTest final : public QObject {
   void joins_across_faces();
   void draws_what_only_touches_the_plane();
   void bears_broken_meshes();
+  void is_drawn_two_pixels_wide();
 };
 
 void MeshCutTest::agrees_with_a_slow_search() {
@@ -167,6 +169,39 @@ void MeshCutTest::bears_broken_meshes() {
   mesh_cut(section, places, std::vector{face(0, 1, 2), face(2, 2, 2), face(0, 0, 1)});
   const Section point{.kind = Section::Kind::kLine, .index = 0, .from = {1, 1, 0}, .to = {1, 1, 0}};
   mesh_cut(point, places, std::vector{face(0, 1, 3)});
+}
+
+void MeshCutTest::is_drawn_two_pixels_wide() {
+  const Section section{.kind = Section::Kind::kInline, .index = 2};
+  const std::vector<survey::IndexPoint> places{{0, 10, 5}, {4, 10, 5}, {0, 10, 95}, {4, 10, 95}};
+  ShapedFault fault;
+  fault.cut = mesh_cut(section, places, std::vector{face(0, 1, 2), face(1, 3, 2)});
+  QCOMPARE(fault.cut.size(), std::size_t{2});
+  QCOMPARE(fault.cut[0].face + fault.cut[1].face, std::size_t{1});
+  ViewTransform view;
+  view.set_area({0, 0, 100, 400});
+  view.set_frame(
+      {.size = {20, 100}, .metres_per_u = 5, .metres_per_v = 4, .upward = false, .vertical = false});
+  view.fit();
+  QImage image(100, 400, QImage::Format_RGB32);
+  image.fill(Qt::black);
+  {
+    QPainter painter(&image);
+    painter.setRenderHint(QPainter::Antialiasing);
+    FaultDrawing how;
+    how.colour = QColor(255, 0, 0);
+    draw_fault(painter, fault, view, how, {}, {});
+  }
+  for (int y = 40; y < 360; y += 10) {
+    double ink = 0, middle = 0;
+    for (int x = 0; x < 100; ++x) {
+      ink += qRed(image.pixel(x, y)) / 255.0;
+      middle += qRed(image.pixel(x, y)) / 255.0 * (x + 0.5);
+    }
+    QVERIFY(std::abs(ink - 2) < 0.15);
+    QVERIFY(std::abs(middle / ink - view.to_pixels({10, 0}).x()) < 0.3);
+  }
+  QCOMPARE(qRed(image.pixel(50, 2)), 0);
 }
 
 static const RegisterTest<MeshCutTest> kRegistered;
