@@ -27,17 +27,55 @@ std::optional<QLineF> clipped(const QLineF& line, const QRectF& to) {
   return QLineF(line.pointAt(low), line.pointAt(high));
 }
 
-void draw_cut(QPainter& painter, const std::vector<CutSegment>& cut, const ViewTransform& view,
+double distance_to_line(const QPointF& p, const QPointF& a, const QPointF& b) {
+  const QPointF along = b - a, to = p - a;
+  const double length = std::hypot(along.x(), along.y());
+  if (length < 1e-9) return std::hypot(to.x(), to.y());
+  return std::abs(along.x() * to.y() - along.y() * to.x()) / length;
+}
+
+// Of the line's pixels, those that it takes to stay within a quarter of a pixel: a mesh has many more.
+QPolygonF in_pixels(const CutLine& line, const ViewTransform& view) {
+  constexpr double kOff = 0.25;
+  constexpr qsizetype kMostSkipped = 40;
+  QPolygonF kept, skipped;
+  for (const PlanePoint& p : line) {
+    const QPointF at = view.to_pixels(p);
+    const auto is_off = [&](const QPointF& before) {
+      return distance_to_line(before, kept.back(), at) > kOff;
+    };
+    if (!skipped.isEmpty() && (skipped.size() == kMostSkipped || std::ranges::any_of(skipped, is_off))) {
+      kept << skipped.back();
+      skipped.clear();
+    }
+    (kept.isEmpty() ? kept : skipped) << at;
+  }
+  if (!skipped.isEmpty()) kept << skipped.back();
+  return kept;
+}
+
+void draw_cut(QPainter& painter, const std::vector<CutLine>& lines, const ViewTransform& view,
               const QPen& pen) {
   const QRectF near = view.area().adjusted(-8, -8, 8, 8);
-  QVector<QLineF> lines;
-  for (const CutSegment& segment : cut) {
-    const auto line = clipped({view.to_pixels(segment[0]), view.to_pixels(segment[1])}, near);
-    if (line) lines.push_back(*line);
-  }
-  if (lines.isEmpty()) return;
   painter.setPen(pen);
-  painter.drawLines(lines);
+  painter.setBrush(Qt::NoBrush);
+  QPolygonF piece;
+  const auto finish = [&] {
+    if (piece.size() > 1) painter.drawPolyline(piece);
+    piece.clear();
+  };
+  for (const CutLine& line : lines) {
+    const QPolygonF points = in_pixels(line, view);
+    for (qsizetype n = 1; n < points.size(); ++n) {
+      const auto shown = clipped({points[n - 1], points[n]}, near);
+      if (!shown || piece.isEmpty() || piece.back() != shown->p1()) finish();
+      if (shown) {
+        if (piece.isEmpty()) piece << shown->p1();
+        piece << shown->p2();
+      }
+    }
+    finish();
+  }
 }
 
 // 1 on the section, falling to 0 at the fade distance.
@@ -83,7 +121,7 @@ void draw_node(QPainter& painter, const QPointF& at, double pixels, const QColor
 void draw_fault(QPainter& painter, const ShapedFault& fault, const ViewTransform& view,
                 const FaultDrawing& how, const std::set<Id>& selected_pillars,
                 const std::set<Id>& selected_nodes) {
-  draw_cut(painter, fault.cut, view, QPen(how.colour, 2, Qt::SolidLine, Qt::RoundCap));
+  draw_cut(painter, fault.lines, view, QPen(how.colour, 2, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin));
   if (!how.shows_pillars) return;
   for (const ShapedPillar& pillar : fault.pillars) {
     const bool selected = selected_pillars.contains(pillar.id);
@@ -109,7 +147,8 @@ void draw_fault(QPainter& painter, const ShapedFault& fault, const ViewTransform
 void draw_hovered(QPainter& painter, const ShapedFault& fault, const Item& item, const ViewTransform& view,
                   const FaultDrawing& how) {
   if (item.kind == Item::Kind::kFault || item.kind == Item::Kind::kFace) {
-    draw_cut(painter, fault.cut, view, QPen(how.colour.lighter(125), 3.5, Qt::SolidLine, Qt::RoundCap));
+    draw_cut(painter, fault.lines, view,
+             QPen(how.colour.lighter(125), 3.5, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin));
     return;
   }
   for (const ShapedPillar& pillar : fault.pillars) {

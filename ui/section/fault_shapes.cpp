@@ -43,7 +43,9 @@ const ShapedFault& FaultShapes::of(Id fault) {
   if (surface != shape.surface) {
     shape.surface = surface;
     shape.cut.clear();
+    shape.lines.clear();
     if (surface) shape.cut = mesh_cut(section_, surface->places, surface->faces);
+    shape.lines = joined(shape.cut);
   }
   if (!is_new || !bench_.document.survey()) return shape;
   const survey::Geometry& survey = *bench_.document.survey();

@@ -30,7 +30,8 @@ struct ShapedPillar {
 struct ShapedFault {
   std::vector<ShapedPillar> pillars;
   std::shared_ptr<const FaultSurface> surface;  // that the cut is of
-  std::vector<CutSegment> cut;
+  std::vector<CutSegment> cut;                  // for the mouse
+  std::vector<CutLine> lines;                   // the same, for the eye
 };
 
 class FaultShapes {

@@ -1,6 +1,7 @@
 #include "ui/section/mesh_cut.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -71,6 +72,38 @@ std::vector<CutSegment> mesh_cut(const Section& section, std::span<const survey:
   Cutting cutting(section, places);
   for (std::size_t n = 0; n < faces.size(); ++n) cutting.add(faces[n].vertices, n);
   return cutting.take();
+}
+
+std::vector<CutLine> joined(std::span<const CutSegment> segments) {
+  // Neighbours have the same end to the last bit.
+  std::map<std::pair<double, double>, std::vector<std::size_t>> at;
+  for (std::size_t n = 0; n < segments.size(); ++n) {
+    for (const PlanePoint& end : segments[n]) at[{end.u, end.v}].push_back(n);
+  }
+  std::vector<bool> used(segments.size());
+  std::vector<CutLine> lines;
+  const auto follow = [&](std::size_t first, std::size_t from) {
+    CutLine line{segments[first][from]};
+    for (std::size_t now = first, start = from;;) {
+      used[now] = true;
+      const PlanePoint end = segments[now][1 - start];
+      line.push_back(end);
+      const auto& meeting = at[{end.u, end.v}];
+      const auto next = std::ranges::find_if(meeting, [&](std::size_t n) { return !used[n]; });
+      if (meeting.size() != 2 || next == meeting.end()) break;
+      now = *next;
+      start = segments[now][0] == end ? 0 : 1;
+    }
+    lines.push_back(std::move(line));
+  };
+  for (const bool rings : {false, true}) {  // rings have no end to begin at
+    for (std::size_t n = 0; n < segments.size(); ++n) {
+      for (std::size_t end = 0; end < 2 && !used[n]; ++end) {
+        if (rings || at[{segments[n][end].u, segments[n][end].v}].size() != 2) follow(n, end);
+      }
+    }
+  }
+  return lines;
 }
 
 }  // namespace footwall::ui

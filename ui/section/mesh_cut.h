@@ -23,4 +23,8 @@ struct CutSegment {
 std::vector<CutSegment> mesh_cut(const Section& section, std::span<const survey::IndexPoint> places,
                                  std::span<const project::MeshFace> faces);
 
+// The segments end to end, as few lines as forks allow; each segment is in one of them.
+using CutLine = std::vector<PlanePoint>;
+std::vector<CutLine> joined(std::span<const CutSegment> segments);
+
 }  // namespace footwall::ui

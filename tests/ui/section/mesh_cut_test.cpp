@@ -68,6 +68,7 @@ class MeshCutTest final : public QObject {
   void agrees_with_a_slow_search();
   void joins_across_faces();
   void draws_what_only_touches_the_plane();
+  void joins_rings_and_forks();
   void bears_broken_meshes();
   void is_drawn_two_pixels_wide();
 };
@@ -145,6 +146,14 @@ void MeshCutTest::joins_across_faces() {
     }
     QVERIFY(low == 0 && high == kSide);
     QVERIFY(length_of(cut) >= kSide && length_of(cut) < 1.5 * kSide);
+    const auto lines = joined(cut);
+    QCOMPARE(lines.size(), std::size_t{1});
+    QCOMPARE(lines[0].size(), cut.size() + 1);
+    double length = 0;
+    for (std::size_t n = 1; n < lines[0].size(); ++n) {
+      length += std::hypot(lines[0][n].u - lines[0][n - 1].u, lines[0][n].v - lines[0][n - 1].v);
+    }
+    QVERIFY(std::abs(length - length_of(cut)) < 1e-9);
   }
 }
 
@@ -160,6 +169,24 @@ void MeshCutTest::draws_what_only_touches_the_plane() {
   // Both sides of an edge in the plane.
   const std::vector<survey::IndexPoint> places{{2, 0, 0}, {2, 0, 5}, {1, 1, 0}, {3, 1, 5}};
   QCOMPARE(mesh_cut(section, places, std::vector{face(0, 1, 2), face(1, 0, 3)}).size(), std::size_t{1});
+}
+
+void MeshCutTest::joins_rings_and_forks() {
+  const auto segment = [](double u0, double v0, double u1, double v1) {
+    return CutSegment{{{{u0, v0}, {u1, v1}}}, 0};
+  };
+  // A square ring, and a fork of three arms of two segments each, in no order.
+  const std::vector<CutSegment> cut{segment(0, 0, 0, 1),  segment(9, 9, 8, 9), segment(1, 1, 0, 1),
+                                    segment(9, 9, 9, 8),  segment(1, 0, 1, 1), segment(9, 9, 9, 10),
+                                    segment(0, 0, 1, 0),  segment(9, 7, 9, 8), segment(8, 9, 7, 9),
+                                    segment(9, 11, 9, 10)};
+  const auto lines = joined(cut);
+  QCOMPARE(lines.size(), std::size_t{4});
+  std::size_t segments = 0;
+  for (const CutLine& line : lines) segments += line.size() - 1;
+  QCOMPARE(segments, cut.size());
+  QVERIFY(lines.back().size() == 5 && lines.back().front() == lines.back().back());
+  QVERIFY(joined({}).empty());
 }
 
 void MeshCutTest::bears_broken_meshes() {
@@ -178,6 +205,7 @@ void MeshCutTest::is_drawn_two_pixels_wide() {
   fault.cut = mesh_cut(section, places, std::vector{face(0, 1, 2), face(1, 3, 2)});
   QCOMPARE(fault.cut.size(), std::size_t{2});
   QCOMPARE(fault.cut[0].face + fault.cut[1].face, std::size_t{1});
+  fault.lines = joined(fault.cut);
   ViewTransform view;
   view.set_area({0, 0, 100, 400});
   view.set_frame(
