@@ -36,6 +36,11 @@ void FaultShapes::forget(const std::set<Id>& faults) {
   for (const Id fault : faults) shapes_.erase(fault);
 }
 
+bool FaultShapes::has_other_surface(Id fault) const {
+  const auto known = shapes_.find(fault);
+  return known == shapes_.end() || known->second.surface != bench_.surfaces.surface(fault);
+}
+
 const ShapedFault& FaultShapes::of(Id fault) {
   const auto [place, is_new] = shapes_.try_emplace(fault);
   ShapedFault& shape = place->second;

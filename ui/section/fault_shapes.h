@@ -40,6 +40,8 @@ class FaultShapes {
   void set_section(const Section& section);
   void forget(const std::set<Id>& faults);
   const ShapedFault& of(Id fault);
+  // Whether the fault has got another surface than the one that of() gave last.
+  bool has_other_surface(Id fault) const;
 
   // What lies under the mouse within reach, nodes before pillars before the faces cut; of faults that are
   // shown.

@@ -85,12 +85,14 @@ void SectionCanvas::connect_models() {
     }
   });
   connect(&bench_.surfaces, &Surfaces::surfaces_changed, this, [this](const std::set<Id>& faults) {
-    const bool only_moving =
-        std::ranges::all_of(faults, [this](Id fault) { return still_without_.contains(fault); });
-    if (only_moving) {
-      update();
-    } else {
+    const auto stands_still = [this](Id fault) {
+      return !still_without_.contains(fault) && shapes_.has_other_surface(fault) &&
+             bench_.display.is_visible({.kind = Item::Kind::kFault, .id = fault});
+    };
+    if (std::ranges::any_of(faults, stands_still)) {
       redraw_still();
+    } else {
+      update();
     }
   });
   connect(&bench_.sections, &SectionReader::ready, this,

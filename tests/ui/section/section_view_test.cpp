@@ -45,7 +45,8 @@ struct OpenView {
   bool arrived = false;
 };
 
-// One pillar on inline 20, from (10, 10) to (20, 50), and one on inline 23.
+// One pillar on inline 20, from (10, 10) to (20, 50), and one of another fault on inline 23. Neither has a
+// surface, whose coming would draw the layer again.
 struct Picked {
   explicit Picked(Workbench& bench) {
     const survey::Geometry survey = *bench.document.survey();
@@ -56,14 +57,16 @@ struct Picked {
                             survey.world_of({20, 20, 50})};
       on_section = now.add_pillar(fault, survey::PillarKind::kInterpreted, here).id;
       const std::array near{survey.world_of({23, 30, 10}), survey.world_of({23, 30, 50})};
-      nearby = now.add_pillar(fault, survey::PillarKind::kInterpreted, near).id;
+      other_fault = now.add_fault("Nearby");
+      now.set_fault_property(other_fault, "colour", "#ff00ff");
+      now.add_pillar(other_fault, survey::PillarKind::kInterpreted, near);
     });
     for (const Fault& other : bench.document.faults()) {
-      if (other.record.id != fault)
-        bench.display.set_visible({.kind = Item::Kind::kFault, .id = other.record.id}, false);
+      const bool ours = other.record.id == fault || other.record.id == other_fault;
+      bench.display.set_visible({.kind = Item::Kind::kFault, .id = other.record.id}, ours);
     }
   }
-  Id fault = 0, on_section = 0, nearby = 0;
+  Id fault = 0, on_section = 0, other_fault = 0;
 };
 
 int coloured(const QImage& image, const QRect& box) {
