@@ -46,7 +46,7 @@ bool has(hid_t file, const char* name) {
 }  // namespace
 
 StoredSurface read_surface(const std::filesystem::path& path) {
-  volume::quiet_hdf5();
+  const volume::Hdf5Use hdf5;
   std::error_code failure;
   if (!std::filesystem::is_regular_file(path, failure))
     throw Error(ErrorCode::kNotFound, fmt::format("there is no file {}", path.string()));

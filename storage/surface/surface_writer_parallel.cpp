@@ -71,8 +71,8 @@ void write_surface_parallel(MPI_Comm parent, const std::filesystem::path& path, 
   std::array<std::int64_t, 3> places{};
   // 1. Rank 0 makes the file.
   volume::agree(comm, outcome_of([&] {
-                  volume::quiet_hdf5();
                   if (comm.rank() != 0) return;
+                  const volume::Hdf5Use hdf5;
                   file.emplace(path);
                   const Places made = create_file(file->path(), size, description);
                   places = {made.positions, made.normals, made.triangles};

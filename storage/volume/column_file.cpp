@@ -109,7 +109,7 @@ std::int64_t read_column(hid_t file, Column& column, const std::filesystem::path
 }  // namespace
 
 void write_column_file(const ColumnTable& table, const std::filesystem::path& path) {
-  quiet_hdf5();
+  const Hdf5Use hdf5;
   for (const Column& column : table.columns) {
     const std::size_t count = std::visit([](const auto& values) { return values.size(); }, column.values);
     require(static_cast<std::int64_t>(count) == rows_of(table, column) * width_of(column),
@@ -131,7 +131,7 @@ void write_column_file(const ColumnTable& table, const std::filesystem::path& pa
 }
 
 ColumnTable read_column_file(const std::filesystem::path& path, const ColumnTable& wanted) {
-  quiet_hdf5();
+  const Hdf5Use hdf5;
   if (!std::filesystem::exists(path)) throw Error(ErrorCode::kNotFound, "there is no file " + path.string());
   const Error odd(ErrorCode::kFormat, path.string() + " is not a whole file of this kind");
   const Handle access = access_without_locks();

@@ -7,6 +7,11 @@
 namespace footwall::volume {
 namespace {
 
+std::recursive_mutex& one_at_a_time() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
 herr_t keep_innermost(unsigned, const H5E_error2_t* entry, void* into) {
   if (entry->desc != nullptr) *static_cast<std::string*>(into) = entry->desc;
   return 0;
@@ -18,7 +23,19 @@ herr_t keep_innermost(unsigned, const H5E_error2_t* entry, void* into) {
 
 }  // namespace
 
+Hdf5Use::Hdf5Use() : lock_(one_at_a_time()) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+bool Handle::reset() {
+  const hid_t id = std::exchange(id_, -1);
+  if (id < 0) return true;
+  const Hdf5Use hdf5;
+  return close_(id) >= 0;
+}
+
 std::string last_hdf5_reason() {
+  const Hdf5Use hdf5;
   std::string reason;
   // Outermost first, so that the last one kept says what really went wrong.
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_innermost, &reason);
@@ -31,7 +48,7 @@ void throw_hdf5(ErrorCode code, const std::string& what, const std::string& hint
 }
 
 void quiet_hdf5() {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  const Hdf5Use hdf5;
 }
 
 Handle open_file_read_only(const std::filesystem::path& path, hid_t access_properties) {

@@ -3,6 +3,7 @@
 #include <hdf5.h>
 
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,19 @@
 #include "storage/base/error.h"
 
 namespace footwall::volume {
+
+// HDF5 as it is built here serves one thread at a time, its account of the last failure included. Every
+// function that calls it holds one of these for as long as its calls belong together, and lets go of it for
+// what needs no HDF5 (hashing, waiting for a source). A thread may hold several. Collective calls hold none
+// while they wait for other ranks: a process with several ranks' worth of HDF5 uses it from one thread.
+class Hdf5Use {
+ public:
+  // Turns HDF5's printing to stderr off, too.
+  Hdf5Use();
+
+ private:
+  std::unique_lock<std::recursive_mutex> lock_;
+};
 
 // Closes what it holds with the function that HDF5 wants for it.
 class Handle {
@@ -28,10 +42,7 @@ class Handle {
   hid_t id() const { return id_; }
   explicit operator bool() const { return id_ >= 0; }
   // False if HDF5 could not close it (for a file: could not write what was left).
-  bool reset() {
-    const hid_t id = std::exchange(id_, -1);
-    return id < 0 || close_(id) >= 0;
-  }
+  bool reset();
 
  private:
   hid_t id_ = -1;

@@ -113,7 +113,7 @@ void check_hash(hid_t dataset, std::span<const std::byte> values, const std::str
 }
 
 VolumeFile open_volume(const std::filesystem::path& path) {
-  quiet_hdf5();
+  const Hdf5Use hdf5;
   const Preamble preamble = read_preamble(path);
   VolumeFile volume;
   volume.path = path;

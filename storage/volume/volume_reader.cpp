@@ -21,9 +21,12 @@ struct VolumeReader::State {
                                static_cast<hsize_t>(place[1] * grid.chunk[1]),
                                static_cast<hsize_t>(place[2] * grid.chunk[2])};
     std::uint32_t filters = 0;
-    // Raw and whole: neither HDF5's chunk cache nor its selections would make the hash any cheaper.
-    if (H5Dread_chunk(volume.voxels.id(), H5P_DEFAULT, offset, &filters, chunk.data()) < 0) {
-      throw_altered(grid, number, volume.path, fmt::format("cannot be read ({})", last_hdf5_reason()));
+    {
+      const Hdf5Use hdf5;  // not for the hash
+      // Raw and whole: neither HDF5's chunk cache nor its selections would make the hash any cheaper.
+      if (H5Dread_chunk(volume.voxels.id(), H5P_DEFAULT, offset, &filters, chunk.data()) < 0) {
+        throw_altered(grid, number, volume.path, fmt::format("cannot be read ({})", last_hdf5_reason()));
+      }
     }
     check_chunk(grid, number, chunk, volume.hashes[static_cast<std::size_t>(number)], volume.path);
     return chunk.data();
@@ -47,7 +50,7 @@ std::span<const std::uint64_t> VolumeReader::chunk_hashes() const {
 }
 
 std::vector<std::uint8_t> VolumeReader::live_mask() const {
-  quiet_hdf5();
+  const Hdf5Use hdf5;
   const VolumeFile& volume = state_->volume;
   const Extent extent{static_cast<hsize_t>(volume.grid.dims[0]), static_cast<hsize_t>(volume.grid.dims[1])};
   const Handle dataset = open_plain(volume.file.id(), kLive, H5T_STD_U8LE, extent, volume.path);
@@ -58,7 +61,6 @@ std::vector<std::uint8_t> VolumeReader::live_mask() const {
 }
 
 void VolumeReader::read(const survey::Box& box, std::span<float> out) const {
-  quiet_hdf5();
   const ChunkGrid& grid = state_->volume.grid;
   require_box(grid, box, out.size());
   const float null_value = state_->volume.info.null_value.value_or(std::numeric_limits<float>::quiet_NaN());
@@ -75,7 +77,6 @@ void VolumeReader::read(const survey::Box& box, std::span<float> out) const {
 }
 
 void VolumeReader::verify(const JobContext& job) const {
-  quiet_hdf5();
   const ChunkGrid& grid = state_->volume.grid;
   const std::int64_t chunks = grid.count();
   std::int64_t altered = 0;
@@ -99,7 +100,7 @@ void VolumeReader::verify(const JobContext& job) const {
 }
 
 MinMaxLevel VolumeReader::min_max(int level) const {
-  quiet_hdf5();
+  const Hdf5Use hdf5;
   const VolumeFile& volume = state_->volume;
   require(level >= 0 && level < min_max_levels(volume.grid.dims), "a level of the min/max pyramid");
   const survey::Index n = min_max_dims(volume.grid.dims, level);

@@ -12,8 +12,9 @@
 
 namespace footwall::volume {
 
-// Open read-only, without HDF5's file locking. HDF5 is not thread-safe: use all readers and writers from one
-// thread at a time. Memory: 8 bytes a chunk of the volume, and one chunk.
+// Open read-only, without HDF5's file locking. One reader serves one thread at a time; several readers and
+// writers, of the same file or others, may be at work on threads of their own: their calls of HDF5 take
+// turns, one chunk at a time. Memory: 8 bytes a chunk of the volume, and one chunk.
 class VolumeReader {
  public:
   // Throws kNotFound; kFormat (not a volume of ours, or one that breaks the format's rules); kCorrupt

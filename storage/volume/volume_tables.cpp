@@ -29,6 +29,7 @@ void write_preamble(const std::filesystem::path& path, const Preamble& preamble)
 
 VolumeTables::VolumeTables(const std::filesystem::path& path, const ChunkGrid& grid)
     : path_(path), grid_(grid) {
+  const Hdf5Use hdf5;
   create_file();  // finds out whether there is room
   create_datasets();
 }
@@ -95,6 +96,7 @@ void VolumeTables::add_live(const survey::Box& strip, std::span<const std::uint8
   live_traces_ += std::count(mask.begin(), mask.end(), std::uint8_t{1});
   if (strip.hi[1] < across) return;
   live_hash_.add(std::as_bytes(std::span(layer_)));
+  const Hdf5Use hdf5;
   write_slab(live_.id(), H5T_NATIVE_UINT8, {static_cast<hsize_t>(strip.lo[0]), 0},
              {static_cast<hsize_t>(strip.size(0)), static_cast<hsize_t>(across)}, layer_.data());
 }
@@ -102,6 +104,7 @@ void VolumeTables::add_live(const survey::Box& strip, std::span<const std::uint8
 void VolumeTables::add_min_max(const MinMaxRow& row) {
   const survey::Index n = min_max_dims(grid_.dims, 0);
   min_max_hash_.add(std::as_bytes(std::span(row)));
+  const Hdf5Use hdf5;
   write_slab(level0_.id(), H5T_NATIVE_FLOAT, {static_cast<hsize_t>(min_max_rows_), 0, 0, 0},
              {1, 3, static_cast<hsize_t>(n[1]), static_cast<hsize_t>(n[2])}, row.data());
   ++min_max_rows_;
@@ -137,6 +140,7 @@ void VolumeTables::finish(VolumeInfo& info, std::span<const std::uint64_t> hashe
                           SampleStatistics& statistics) {
   require(hashes.size() == static_cast<std::size_t>(grid_.count()), "a hash for each chunk");
   require(min_max_rows_ == min_max_dims(grid_.dims, 0)[0], "every row of the pyramid");
+  const Hdf5Use hdf5;
   write_hash(live_.id(), live_hash_.value());
   write_hash(level0_.id(), min_max_hash_.value());
   write_coarser_levels();

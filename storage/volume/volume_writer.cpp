@@ -14,7 +14,6 @@ namespace footwall::volume {
 
 VolumeInfo write_volume(const std::filesystem::path& path, const WriteOptions& options,
                         const BlockSource& fill, const JobContext& job) {
-  quiet_hdf5();
   VolumeInfo info = checked(options);
   const ChunkGrid grid{info.dims, info.chunk};
   PartialFile file(path);

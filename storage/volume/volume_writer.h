@@ -42,7 +42,8 @@ survey::Index default_chunk(const survey::Index& dims);
 // above 64 MiB where a block of 8 x 8 traces is not already larger. An existing file is replaced only by a
 // whole one. Cancel is looked at between blocks. Errors: kInvalid (geometry, chunk, provenance that is not
 // JSON), kNotFound (folder), kIo (disk full ...), kCancelled, and what `fill` throws; each leaves no file.
-// Call it from one thread at a time of all HDF5 users.
+// May run beside other readers and writers, each on a thread of its own: their calls of HDF5 take turns, and
+// it holds none of them up while it asks `fill`.
 VolumeInfo write_volume(const std::filesystem::path& path, const WriteOptions& options,
                         const BlockSource& fill, const JobContext& job);
 

@@ -3,6 +3,7 @@
 #include <hdf5.h>
 
 #include <random>
+#include <thread>
 
 #include "unit/volume/volume_fixture.h"
 
@@ -200,6 +201,41 @@ TEST_F(VolumeReaderTest, LinksExternalStorageFiltersAndWrongTypesAreRefused) {
     H5Pclose(plan);
   });
   edited([](hid_t f) { H5Adelete(f, "geometry"); });
+}
+
+// HDF5 itself serves one thread at a time: without turns this crashes or reads what is not there.
+TEST_F(VolumeReaderTest, ReadersAndWritersOfSeveralThreadsTakeTurns) {
+  write();
+  const auto read_and_write = [&](int thread) {
+    const std::filesystem::path own = folder_ / ("own" + std::to_string(thread) + ".h5");
+    WriteOptions options = options_for({9, 8, 7});
+    options.chunk = survey::Index{2, 3, 4};
+    const survey::Box box{{1, 2, 3}, {9, 11, 14}};
+    std::vector<float> values(static_cast<std::size_t>(box.count()));
+    int wrong = 0;
+    for (int n = 0; n < 40; ++n) {
+      write_volume(own, options, source_of(wavy), JobContext());
+      VolumeReader(own).verify(JobContext());
+      const VolumeReader reader(path_);
+      reader.read(box, values);
+      wrong += values.front() != wavy(1, 2, 3) || values.back() != wavy(8, 10, 13) ? 1 : 0;
+      wrong += reader.min_max(0).min.empty() || reader.live_mask().empty() ? 1 : 0;
+      try {
+        const VolumeReader none(folder_ / "none.h5");
+        ++wrong;
+      } catch (const Error& error) {
+        wrong += error.code() == ErrorCode::kNotFound ? 0 : 1;
+      }
+    }
+    return wrong;
+  };
+  std::vector<int> wrong(3, -1);
+  {
+    std::vector<std::jthread> threads;
+    for (int t = 0; t < 3; ++t)
+      threads.emplace_back([&, t] { wrong[static_cast<std::size_t>(t)] = read_and_write(t); });
+  }
+  EXPECT_EQ(wrong, (std::vector<int>{0, 0, 0}));
 }
 
 }  // namespace
