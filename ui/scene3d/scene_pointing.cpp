@@ -1,0 +1,455 @@
+// The mouse and the keys: what lies under a pixel, orbit, pan, zoom, planes that are dragged by their frame.
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+
+#include "ui/scene3d/scene_private.h"
+
+namespace footwall::ui {
+namespace {
+
+using render::Vec3;
+
+constexpr double kNodeCatch = 11;  // pixels
+constexpr double kPillarCatch = 6;
+constexpr double kFrameCatch = 5;
+constexpr double kTravel = 4;
+constexpr double kBehind =
+    0.01;  // share of the distance by which a node may lie behind a surface and be seen
+
+double distance_to(const QPointF& p, const QPointF& a, const QPointF& b) {
+  const QPointF along = b - a;
+  const double length2 = QPointF::dotProduct(along, along);
+  const double t = length2 > 0 ? std::clamp(QPointF::dotProduct(p - a, along) / length2, 0.0, 1.0) : 0;
+  const QPointF off = p - a - along * t;
+  return std::hypot(off.x(), off.y());
+}
+
+Ray flattened(const Ray& ray, double heights) {
+  return {{ray.from.x, ray.from.y, ray.from.z / heights}, {ray.along.x, ray.along.y, ray.along.z / heights}};
+}
+
+}  // namespace
+
+// Nodes and pillars of visible faults near the pixel, none farther than `nearest` along the view.
+std::optional<Item> SceneView::Private::node_or_pillar_at(const QPointF& pixel, double nearest,
+                                                          int* segment) const {
+  const render::Camera camera = drawing.seen();
+  const double heights = drawing.heights();
+  std::optional<Item> best;
+  double best_node = kNodeCatch;
+  double best_pillar = kPillarCatch;
+  const bool has_active = workbench.selection.active_fault() != 0;
+  for (const Id fault : drawing.shown_faults()) {
+    // Nodes are caught where they are drawn: of the active fault, of picked pillars, of faults without faces.
+    const bool nodes_shown =
+        fault == workbench.selection.active_fault() || drawing.geometry(fault) == nullptr || !has_active;
+    for (const survey::Pillar& pillar : workbench.document.shown_pillars(fault)) {
+      bool has_last = false;
+      QPointF last;
+      double last_depth = 0;
+      for (std::size_t n = 0; n < pillar.nodes.size(); ++n) {
+        const Vec3 flat = drawing.flat_of(pillar.nodes[n].position);
+        const Vec3 at{flat.x, flat.y, flat.z * heights};
+        const double depth = dot(at - camera.eye, camera.forward);
+        QPointF here;
+        if (!project_to(camera, size(), at, &here)) {
+          has_last = false;
+          continue;
+        }
+        const QPointF off = here - pixel;
+        const double away = std::hypot(off.x(), off.y());
+        const bool seen = depth <= nearest * (1 + kBehind);
+        if ((nodes_shown || workbench.selection.pillars().contains(pillar.id)) && seen && away < best_node) {
+          best_node = away;
+          best = Item{.kind = Item::Kind::kNode, .id = pillar.nodes[n].id};
+          *segment = -1;
+        }
+        if (has_last && best_node == kNodeCatch && std::min(depth, last_depth) <= nearest * (1 + kBehind)) {
+          const double beside = distance_to(pixel, last, here);
+          if (beside < best_pillar) {
+            best_pillar = beside;
+            best = Item{.kind = Item::Kind::kPillar, .id = pillar.id};
+            *segment = static_cast<int>(n) - 1;
+          }
+        }
+        last = here;
+        has_last = true;
+        last_depth = depth;
+      }
+    }
+  }
+  return best;
+}
+
+Id SceneView::Private::frame_at(const QPointF& pixel) const {
+  if (!drawing.frame()) return 0;
+  const render::Camera camera = drawing.seen();
+  Id best = 0;
+  double nearest = kFrameCatch;
+  for (const Display::ShownSection& shown : workbench.display.sections()) {
+    if (!shown.in_scene || shown.section.kind == Section::Kind::kLine) continue;
+    const PlanePlace place = place_of(shown.section, *drawing.frame());
+    const std::array<Vec3, 5> corners{place.origin, place.origin + place.across,
+                                      place.origin + place.across + place.down, place.origin + place.down,
+                                      place.origin};
+    for (std::size_t n = 0; n < 4; ++n) {
+      QPointF a, b;
+      if (!project_to(camera, size(), corners[n], &a) || !project_to(camera, size(), corners[n + 1], &b))
+        continue;
+      const double away = distance_to(pixel, a, b);
+      if (away >= nearest) continue;
+      nearest = away;
+      best = shown.id;
+    }
+  }
+  return best;
+}
+
+SceneView::Under SceneView::under(const QPointF& pixel) const {
+  Under result;
+  const SceneDrawing& drawing = d_->drawing;
+  if (!drawing.frame()) return result;
+  const render::SceneFrame& frame = *drawing.frame();
+  const Ray ray = drawing.camera.ray(pixel, d_->size());
+  double nearest = INFINITY;
+  for (const Display::ShownSection& shown : d_->workbench.display.sections()) {
+    if (!shown.in_scene) continue;
+    const PlaneSize size = size_of(shown.section, frame.geometry());
+    const auto hit = hit_of(ray, place_of(shown.section, frame), size);
+    if (!hit || hit->distance >= nearest) continue;
+    nearest = hit->distance;
+    result.hit = result.on_plane = true;
+    result.plane = shown.id;
+    result.place = index_of(shown.section, hit->at);
+    result.item = {.kind = Item::Kind::kSection, .id = shown.id};
+  }
+  const Ray flat = flattened(ray, drawing.heights());
+  for (const Id fault : drawing.shown_faults()) {
+    const FaultGeometry* mesh = drawing.geometry(fault);
+    if (mesh == nullptr || mesh->face_count() == 0) continue;
+    const render::Vec3f lo(mesh->bounds().lo), hi(mesh->bounds().hi);
+    if (!entry_of(flat, lo, hi, nearest)) continue;
+    const auto hit = mesh->tree().first_hit(flat, nearest);
+    if (!hit) continue;
+    nearest = hit->distance;
+    const project::MeshFace& face = mesh->surface().faces[static_cast<std::size_t>(hit->face)];
+    result.hit = true;
+    result.on_plane = false;
+    result.plane = 0;
+    result.item = {.kind = Item::Kind::kFace, .id = fault, .panel = face.panel, .number = face.n};
+    const Vec3 at = ray.from + ray.along * hit->distance;
+    result.place = index_at(at);
+  }
+  // Along the view's axis, as depths of nodes are.
+  const render::Camera camera = drawing.seen();
+  const double depth =
+      std::isfinite(nearest) ? dot(ray.from + ray.along * nearest - camera.eye, camera.forward) : INFINITY;
+  int segment = -1;
+  if (const auto mark = d_->node_or_pillar_at(pixel, depth, &segment)) {
+    result.item = *mark;
+    result.segment = segment;
+  } else if (const Id plane = d_->frame_at(pixel)) {
+    result.on_frame = true;
+    result.plane = plane;
+    result.item = {.kind = Item::Kind::kSection, .id = plane};
+  }
+  return result;
+}
+
+survey::IndexPoint SceneView::index_at(const render::Vec3& scene) const {
+  const render::SceneFrame& frame = *d_->drawing.frame();
+  const survey::Geometry& g = frame.geometry();
+  // The frame is an affine map of index space: solve for the three indices.
+  const Vec3 zero = frame.scene_of(survey::IndexPoint{0, 0, 0});
+  const Vec3 a = frame.scene_of(survey::IndexPoint{1, 0, 0}) - zero;
+  const Vec3 b = frame.scene_of(survey::IndexPoint{0, 1, 0}) - zero;
+  const Vec3 c = frame.scene_of(survey::IndexPoint{0, 0, 1}) - zero;
+  const Vec3 p = scene - zero;
+  const double det = dot(a, cross(b, c));
+  const auto limited = [](double value, std::int64_t count) {
+    return std::clamp(value, -0.5, static_cast<double>(count) - 0.5);
+  };
+  return {limited(dot(p, cross(b, c)) / det, g.inlines.count),
+          limited(dot(p, cross(c, a)) / det, g.crosslines.count),
+          limited(dot(p, cross(a, b)) / det, g.samples)};
+}
+
+std::optional<QPointF> SceneView::pixel_of(const survey::IndexPoint& place) const {
+  QPointF at;
+  if (!d_->drawing.frame() ||
+      !project_to(d_->drawing.seen(), d_->size(), d_->drawing.frame()->scene_of(place), &at)) {
+    return {};
+  }
+  return at;
+}
+
+Pointer SceneView::Private::pointer_of(const Under& under, const QPointF& pixel, Qt::MouseButton button,
+                                       Qt::KeyboardModifiers modifiers, ulong time) const {
+  Pointer pointer;
+  pointer.x = pixel.x();
+  pointer.y = pixel.y();
+  pointer.place = under.place;
+  pointer.modifiers = modifiers;
+  pointer.button = button;
+  pointer.time = std::chrono::milliseconds(time);
+  if (under.item.kind == Item::Kind::kNode || under.item.kind == Item::Kind::kPillar ||
+      under.item.kind == Item::Kind::kFace) {
+    pointer.under = under.item;
+  }
+  pointer.segment = under.segment;
+  for (const Display::ShownSection& shown : workbench.display.sections()) {
+    if (shown.id != under.plane || under.plane == 0) continue;
+    pointer.section = shown.section;
+    pointer.on_section = under.on_plane;
+  }
+  return pointer;
+}
+
+void SceneView::Private::show_pointer() {
+  if (mouse == Mouse::kOrbit || mouse == Mouse::kPan || mouse == Mouse::kPlane) return;
+  Qt::CursorShape shape = Qt::ArrowCursor;
+  switch (workbench.picking.shape()) {
+    case PointerShape::kArrow:
+      break;
+    case PointerShape::kCross:
+    case PointerShape::kAddNode:
+    case PointerShape::kPen:
+      shape = Qt::CrossCursor;
+      break;
+    case PointerShape::kMoveNode:
+      shape = Qt::SizeAllCursor;
+      break;
+    case PointerShape::kDeleteNode:
+      shape = Qt::ForbiddenCursor;
+      break;
+    case PointerShape::kHand:
+      shape = Qt::OpenHandCursor;
+      break;
+  }
+  if (view.cursor().shape() != shape) view.setCursor(shape);
+}
+
+void SceneView::Private::hover(const QPointF& pixel, const QMouseEvent& event) {
+  const Under below = view.under(pixel);
+  workbench.picking.move(pointer_of(below, pixel, Qt::NoButton, event.modifiers(), event.timestamp()));
+  workbench.display.set_cursor(below.hit ? std::optional(below.place) : std::nullopt);
+  // A plane is hovered by its frame alone: it fills much of the picture.
+  workbench.selection.hover(below.item.kind == Item::Kind::kSection ? Item{} : below.item);
+  drawing.set_hot_plane(below.on_frame ? below.plane : 0);
+  show_pointer();
+  if (below.on_frame) view.setCursor(Qt::SizeAllCursor);
+  view.update();
+}
+
+void SceneView::Private::begin_plane_drag(Id plane_id, const QPointF& pixel) {
+  for (const Display::ShownSection& shown : workbench.display.sections()) {
+    if (shown.id != plane_id) continue;
+    const PlanePlace place = place_of(shown.section, *drawing.frame());
+    const Ray ray = drawing.camera.ray(pixel, size());
+    // The plane's point nearest to the ray under the mouse; the frame is where it was caught.
+    const Vec3 normal = cross(place.across, place.down);
+    const double towards = dot(ray.along, normal);
+    const Vec3 middle = place.origin + (place.across + place.down) * 0.5;
+    plane_grip = std::abs(towards) > 1e-3 * length(normal)
+                     ? ray.from + ray.along * (dot(place.origin - ray.from, normal) / towards)
+                     : ray.from + ray.along * dot(middle - ray.from, ray.along);
+    const auto at = [&](std::int64_t index) {
+      Section section = shown.section;
+      section.index = index;
+      return place_of(section, *drawing.frame()).origin;
+    };
+    plane_step = at(1) - at(0);
+    plane_index = shown.section.index;
+    plane = plane_id;
+    mouse = Mouse::kPlane;
+    drawing.set_loose_plane(plane_id);
+    drawing.set_hot_plane(plane_id);
+    return;
+  }
+}
+
+// Steps from the grip, where the line of the plane's way comes nearest to the ray under the mouse.
+double SceneView::Private::along_step(const QPointF& pixel) const {
+  const Ray ray = drawing.camera.ray(pixel, size());
+  const double ss = dot(plane_step, plane_step);
+  const double sr = dot(plane_step, ray.along);
+  const double det = ss - sr * sr;
+  if (det < 1e-6 * ss) return 0;  // it would move along the view
+  const Vec3 off = ray.from - plane_grip;
+  return (dot(plane_step, off) - sr * dot(ray.along, off)) / det;
+}
+
+void SceneView::Private::drag_plane(const QPointF& pixel) {
+  for (const Display::ShownSection& shown : workbench.display.sections()) {
+    if (shown.id != plane) continue;
+    const double steps = along_step(pixel);
+    if (!std::isfinite(steps)) return;
+    Section section = shown.section;
+    section.index = plane_index;
+    constexpr double kFar = 1 << 24;
+    const auto by = static_cast<std::int64_t>(std::llround(std::clamp(steps, -kFar, kFar)));
+    workbench.display.move_section(plane, stepped(section, by, drawing.frame()->geometry()));
+    return;
+  }
+}
+
+void SceneView::mousePressEvent(QMouseEvent* event) {
+  Private& d = *d_;
+  d.pressed_at = d.last_at = event->position();
+  d.travelled = false;
+  const bool left = event->button() == Qt::LeftButton;
+  const bool navigating = left && (event->modifiers().testFlag(Qt::AltModifier) || d.space_held);
+  if (event->button() == Qt::MiddleButton || navigating) {
+    d.mouse = event->modifiers().testFlag(Qt::ShiftModifier) ? Private::Mouse::kPan : Private::Mouse::kOrbit;
+    setCursor(Qt::ClosedHandCursor);
+    return;
+  }
+  const Under below = under(event->position());
+  if (left && below.on_frame) return d.begin_plane_drag(below.plane, event->position());
+  const Pointer pointer =
+      d.pointer_of(below, event->position(), event->button(), event->modifiers(), event->timestamp());
+  if (d.workbench.picking.press(pointer)) {
+    d.mouse = Private::Mouse::kPicking;
+  } else if (left) {
+    d.mouse = Private::Mouse::kPressed;
+  }
+}
+
+void SceneView::mouseMoveEvent(QMouseEvent* event) {
+  Private& d = *d_;
+  d.drawing.has_mouse = true;
+  const QPointF at = event->position();
+  const QPointF by = at - d.last_at;
+  const QPointF since = at - d.pressed_at;
+  if (d.mouse != Private::Mouse::kNone && std::hypot(since.x(), since.y()) >= kTravel) d.travelled = true;
+  switch (d.mouse) {
+    case Private::Mouse::kOrbit:
+      if (!d.travelled) return;
+      d.drawing.camera.orbit(by.x(), by.y());
+      d.camera_moved();
+      break;
+    case Private::Mouse::kPan:
+      if (!d.travelled) return;
+      d.drawing.camera.pan(by.x(), by.y(), d.size());
+      d.camera_moved();
+      break;
+    case Private::Mouse::kPlane:
+      if (d.travelled) d.drag_plane(at);
+      break;
+    case Private::Mouse::kPicking:
+    case Private::Mouse::kPressed:
+    case Private::Mouse::kNone:
+      d.hover(at, *event);
+      break;
+  }
+  d.last_at = at;
+}
+
+void SceneView::mouseReleaseEvent(QMouseEvent* event) {
+  Private& d = *d_;
+  const auto was = std::exchange(d.mouse, Private::Mouse::kNone);
+  const Under below = under(event->position());
+  const Pointer pointer =
+      d.pointer_of(below, event->position(), event->button(), event->modifiers(), event->timestamp());
+  if (was == Private::Mouse::kPicking) {
+    d.workbench.picking.release(pointer);
+  } else if (was == Private::Mouse::kPressed && !d.travelled) {
+    const bool marks = below.item.kind == Item::Kind::kNode || below.item.kind == Item::Kind::kPillar ||
+                       below.item.kind == Item::Kind::kFace;
+    const bool extend = event->modifiers().testFlag(Qt::ControlModifier);
+    if (marks) {
+      d.workbench.selection.select(below.item, extend);
+    } else if (!extend) {
+      d.workbench.selection.clear();
+    }
+  } else if (was == Private::Mouse::kPlane) {
+    d.drawing.set_hot_plane(below.on_frame ? below.plane : 0);
+    update();
+  }
+  d.show_pointer();
+}
+
+void SceneView::mouseDoubleClickEvent(QMouseEvent* event) {
+  const Under below = under(event->position());
+  const Pointer pointer =
+      d_->pointer_of(below, event->position(), event->button(), event->modifiers(), event->timestamp());
+  if (!d_->workbench.picking.double_click(pointer)) mousePressEvent(event);
+}
+
+void SceneView::wheelEvent(QWheelEvent* event) {
+  Private& d = *d_;
+  const double notches = event->angleDelta().y() / 120.0;
+  if (notches == 0 || !d.drawing.frame()) return;
+  OrbitCamera& camera = d.drawing.camera;
+  // What is under the mouse stays there; beside everything, the plane through the target.
+  const Ray ray = camera.ray(event->position(), d.size());
+  const Under below = under(event->position());
+  const render::Camera seen = d.drawing.seen();
+  const double towards = dot(ray.along, seen.forward);
+  Vec3 at = ray.from + ray.along * (dot(camera.target() - ray.from, seen.forward) / towards);
+  if (below.hit) {
+    const Vec3 hit = d.drawing.frame()->scene_of(below.place);
+    at = ray.from + ray.along * (dot(hit - ray.from, seen.forward) / towards);
+  }
+  camera.zoom(std::pow(0.85, notches), at);
+  d.camera_moved();
+  event->accept();
+}
+
+void SceneView::keyPressEvent(QKeyEvent* event) {
+  Private& d = *d_;
+  if (event->key() == Qt::Key_Space && !event->isAutoRepeat()) d.space_held = true;
+  if (d.workbench.picking.key_press(event->key(), event->modifiers())) return;
+  if (event->modifiers() != Qt::NoModifier && event->modifiers() != Qt::KeypadModifier) {
+    return QOpenGLWidget::keyPressEvent(event);
+  }
+  Display& display = d.workbench.display;
+  constexpr double kKeyPixels = 25;  // of a mouse that would do the same
+  switch (event->key()) {
+    case Qt::Key_O:
+      return display.set_perspective(!display.perspective());
+    case Qt::Key_E: {
+      FaceLook look = display.faces();
+      look.edges = !look.edges;
+      return display.set_faces(look);
+    }
+    case Qt::Key_F:
+      return frame_selection();
+    case Qt::Key_Home:
+      return fit();
+    case Qt::Key_Left:
+    case Qt::Key_Right:
+      d.drawing.camera.orbit(event->key() == Qt::Key_Left ? -kKeyPixels : kKeyPixels, 0);
+      return d.camera_moved();
+    case Qt::Key_Up:
+    case Qt::Key_Down:
+      d.drawing.camera.orbit(0, event->key() == Qt::Key_Up ? -kKeyPixels : kKeyPixels);
+      return d.camera_moved();
+    case Qt::Key_Plus:
+    case Qt::Key_Minus:
+      d.drawing.camera.zoom(event->key() == Qt::Key_Plus ? 0.85 : 1 / 0.85, d.drawing.camera.target());
+      return d.camera_moved();
+    default:
+      return QOpenGLWidget::keyPressEvent(event);
+  }
+}
+
+void SceneView::keyReleaseEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Space && !event->isAutoRepeat()) d_->space_held = false;
+  if (!d_->workbench.picking.key_release(event->key())) QOpenGLWidget::keyReleaseEvent(event);
+}
+
+void SceneView::leaveEvent(QEvent* event) {
+  d_->drawing.has_mouse = false;
+  d_->workbench.picking.leave();
+  d_->workbench.display.set_cursor(std::nullopt);
+  d_->workbench.selection.hover({});
+  if (d_->mouse != Private::Mouse::kPlane) d_->drawing.set_hot_plane(0);
+  update();
+  QOpenGLWidget::leaveEvent(event);
+}
+
+}  // namespace footwall::ui
