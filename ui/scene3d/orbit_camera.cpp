@@ -51,7 +51,7 @@ bool OrbitCamera::place(const Vec3& eye, const Vec3& target) {
 
 void OrbitCamera::set_direction(double azimuth_degrees, double elevation_degrees) {
   if (!std::isfinite(azimuth_degrees) || !std::isfinite(elevation_degrees)) return;
-  azimuth_ = std::fmod(azimuth_degrees + 360, 360);
+  azimuth_ = std::fmod(std::fmod(azimuth_degrees, 360) + 360, 360);
   elevation_ = std::clamp(elevation_degrees, -90.0, 90.0);
 }
 
@@ -72,6 +72,21 @@ void OrbitCamera::look(StandardView view) {
     case StandardView::kOblique:
       return set_direction(315, 28);
   }
+}
+
+void OrbitCamera::look_along(double side_degrees) {
+  constexpr double kFromSide = 32;
+  constexpr double kNorthWest = 315;
+  double best = kNorthWest;
+  double least = 360;
+  for (int n = 0; n < 8; ++n) {
+    const double azimuth = side_degrees + 90 * (n / 2) + (n % 2 == 0 ? kFromSide : -kFromSide);
+    const double off = std::abs(std::remainder(azimuth - kNorthWest, 360));
+    if (off >= least) continue;
+    least = off;
+    best = azimuth;
+  }
+  set_direction(best, 28);
 }
 
 void OrbitCamera::fit(const QSizeF& view) {
@@ -122,7 +137,8 @@ void OrbitCamera::pan(double right, double down, const QSizeF& view) {
 
 void OrbitCamera::zoom(double factor, const Vec3& at) {
   const double size = size_of(corners_);
-  const double wanted = std::clamp(distance_ * factor, size * 1e-4, size * 100);
+  // Nearer, the target would lie before what depths can tell apart.
+  const double wanted = std::clamp(distance_ * factor, size * 6e-3, size * 100);
   const double share = wanted / distance_;
   target_ = at + (target_ - at) * share;
   distance_ = wanted;

@@ -26,6 +26,8 @@ class OrbitCamera {
   void fit(const QSizeF& view);
   void fit(const QSizeF& view, std::span<const render::Vec3> corners);
   void look(StandardView view);
+  // Oblique to a box whose sides run along this azimuth, the north-west ahead as far as that goes.
+  void look_along(double side_degrees);
   void set_direction(double azimuth_degrees, double elevation_degrees);
   void set_perspective(bool on) { perspective_ = on; }
   bool perspective() const { return perspective_; }

@@ -399,6 +399,11 @@ void SceneView::resizeGL(int width, int height) {
   d.drawing.set_view(QSizeF(width, height));
   d.take_style();
   if (!d.fitted && width > 20 && height > 20) {
+    if (d.drawing.frame()) {
+      const auto corners = d.drawing.frame()->corners();
+      const Vec3 side = corners[1] - corners[0];
+      d.drawing.camera.look_along(std::atan2(side.x, side.y) * 180 / M_PI);
+    }
     d.drawing.camera.fit(QSizeF(width, height));
     d.fitted = true;
   }
