@@ -87,9 +87,16 @@ CoarseFaces FaultGeometry::coarse(std::size_t most) const {
     for (std::size_t n = 0; n < count; ++n) result.faces[n] = static_cast<std::uint32_t>(n);
     return result;
   }
-  const render::Vec3 size = bounds_.hi - bounds_.lo;
+  double area = 0;
+  for (std::size_t n = 0; n < corners_.size(); n += 3) {
+    const render::Vec3 at(positions_[corners_[n]]);
+    const double one = length(cross(render::Vec3(positions_[corners_[n + 1]]) - at,
+                                    render::Vec3(positions_[corners_[n + 2]]) - at)) /
+                       2;
+    if (std::isfinite(one)) area += one;
+  }
   // A surface has about two faces per cell that it passes through.
-  double cell = length(size) / std::sqrt(static_cast<double>(most) + 1);
+  double cell = std::sqrt(2.5 * area / static_cast<double>(std::max<std::size_t>(most, 1)));
   do {
     result = {};
     const std::vector<std::uint32_t> chosen = stand_ins(positions_, bounds_, std::max(cell, 1e-9));
@@ -101,8 +108,8 @@ CoarseFaces FaultGeometry::coarse(std::size_t most) const {
       result.corners.insert(result.corners.end(), {a, b, c});
       result.faces.push_back(static_cast<std::uint32_t>(face));
     }
-    cell *= 1.6;
-  } while (result.faces.size() > 2 * most);
+    cell = 1.3 * cell + 1e-9;
+  } while (result.faces.size() > most);
   return result;
 }
 

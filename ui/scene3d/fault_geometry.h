@@ -35,7 +35,7 @@ class FaultGeometry {
   const RayTree& tree() const;
   // Pairs of positions: edges with one face.
   const std::vector<render::Vec3f>& outline() const;
-  // About `most` faces or fewer (never more than twice as many); all of them where there are not more.
+  // At most `most` faces, and not many fewer where the surface lets it; all of them where there are not more.
   CoarseFaces coarse(std::size_t most) const;
 
  private:

@@ -130,14 +130,17 @@ void FaultMeshes::make(Gl& gl, Mesh& mesh, std::size_t level) {
   coarse.made = true;
 }
 
-void FaultMeshes::make_coarse(Gl& gl, Id fault) {
+bool FaultMeshes::make_coarse(Gl& gl, Id fault, int level) {
   const auto found = meshes_.find(fault);
-  if (found == meshes_.end()) return;
-  if (found->second.geometry->face_count() > 2 * kCoarse[0]) make(gl, found->second, 0);
+  const auto at = static_cast<std::size_t>(level);
+  if (found == meshes_.end() || found->second.coarse.at(at).made) return false;
+  if (found->second.geometry->face_count() <= kCoarse.at(at)) return false;
+  make(gl, found->second, at);
+  return true;
 }
 
 std::size_t FaultMeshes::coarse_count(Id fault, int level) const {
-  return std::min(face_count(fault), 2 * kCoarse.at(static_cast<std::size_t>(level)));
+  return std::min(face_count(fault), kCoarse.at(static_cast<std::size_t>(level)));
 }
 
 std::size_t FaultMeshes::draw_coarse(Gl& gl, const Pass& pass, Id fault, const FaceColouring& how,
@@ -146,8 +149,7 @@ std::size_t FaultMeshes::draw_coarse(Gl& gl, const Pass& pass, Id fault, const F
   if (found == meshes_.end()) return 0;
   Mesh& mesh = found->second;
   const std::size_t most = kCoarse.at(static_cast<std::size_t>(level));
-  if (mesh.geometry->face_count() <= 2 * most)
-    return draw(gl, pass, fault, how, 0, mesh.geometry->face_count());
+  if (mesh.geometry->face_count() <= most) return draw(gl, pass, fault, how, 0, mesh.geometry->face_count());
   Coarse& coarse = mesh.coarse.at(static_cast<std::size_t>(level));
   if (!coarse.made) make(gl, mesh, static_cast<std::size_t>(level));
   if (coarse.count == 0) return 0;

@@ -39,11 +39,12 @@ class FaultMeshes {
   // Faces [first, first + count); returns the number drawn.
   std::size_t draw(Gl& gl, const Pass& pass, Id fault, const FaceColouring& how, std::size_t first,
                    std::size_t count);
-  // Of level 0 (kCoarse[0] faces or fewer) or 1; the buffers are made at the first call.
-  static constexpr std::array<std::size_t, 2> kCoarse{400, 60};
+  // Of a level: at most so many faces. The buffers are made at the first call.
+  static constexpr std::array<std::size_t, 3> kCoarse{1500, 220, 60};
   std::size_t coarse_count(Id fault, int level) const;
-  // So that the first move of the camera need not make them.
-  void make_coarse(Gl& gl, Id fault);
+  // So that the first move of the camera need not make it.
+  // False where there was nothing to do.
+  bool make_coarse(Gl& gl, Id fault, int level);
   std::size_t draw_coarse(Gl& gl, const Pass& pass, Id fault, const FaceColouring& how, int level);
   std::size_t uploads() const { return uploads_; }  // of whole meshes, so far
 
@@ -56,7 +57,7 @@ class FaultMeshes {
   struct Mesh {
     std::shared_ptr<const FaultGeometry> geometry;
     GlBuffer positions, corners, faces;
-    std::array<Coarse, 2> coarse;
+    std::array<Coarse, kCoarse.size()> coarse;
   };
   void make(Gl& gl, Mesh& mesh, std::size_t level);
   GlProgram& prepare(Gl& gl, const Pass& pass, const Mesh& mesh, const FaceColouring& how, bool edges);

@@ -14,6 +14,14 @@ namespace {
 using render::Vec3;
 using render::Vec3f;
 
+QColor mixed(const QColor& a, const QColor& b, double share) {
+  const auto channel = [share](float from, float to) {
+    return static_cast<float>(from + (to - from) * share);
+  };
+  return QColor::fromRgbF(channel(a.redF(), b.redF()), channel(a.greenF(), b.greenF()),
+                          channel(a.blueF(), b.blueF()));
+}
+
 double velocity_of(const project::Project& project) {
   const auto text = project.setting("velocity");
   bool good = false;
@@ -58,6 +66,9 @@ void SceneDrawing::release() {
                            &tile_target_, &tile_samples_}) {
     target->release(gl);
   }
+  front_valid_ = fine_valid_ = back_.under_way = fine_.under_way = false;
+  coarse_made_.reset();
+  static_marks_old_ = camera_marks_old_ = true;
   gl_ = nullptr;
 }
 
@@ -113,8 +124,23 @@ void SceneDrawing::numbers_changed(const std::set<Id>& faults) {
 void SceneDrawing::pillars_changed(const std::set<Id>& faults) {
   const std::set<Id> loose = loose_faults();
   loose_marks_old_ = true;
+  for (const Id fault : faults) {
+    if (workbench_.document.fault(fault) == nullptr && meshes_.has(fault)) meshes_to_upload_.insert(fault);
+  }
   const bool standing = std::ranges::any_of(faults, [&](Id fault) { return !loose.contains(fault); });
   if (!standing) return loose_changed();
+  static_marks_old_ = true;
+  content_changed();
+}
+
+void SceneDrawing::selection_changed() {
+  const std::set<Id> loose = loose_faults();
+  std::set<Id> standing;
+  for (const Id pillar : workbench_.selection.pillars()) {
+    const Fault* fault = workbench_.document.fault_of_pillar(pillar);
+    if (fault != nullptr && !loose.contains(fault->record.id)) standing.insert(pillar);
+  }
+  if (std::exchange(standing_picks_, standing) == standing) return loose_changed();
   static_marks_old_ = true;
   content_changed();
 }
@@ -240,7 +266,7 @@ void SceneDrawing::upload(Id fault, bool loose) {
   meshes_to_upload_.erase(fault);
   loose_marks_old_ = flat_old_ = true;
   const auto surface = source.surface(fault);
-  if (!surface || surface->faces.empty() || !flat_) {
+  if (!surface || surface->faces.empty() || !flat_ || workbench_.document.fault(fault) == nullptr) {
     meshes_.remove(*gl_, fault);
     return;
   }
@@ -250,7 +276,7 @@ void SceneDrawing::upload(Id fault, bool loose) {
       surface, [this](const survey::WorldPoint& p) { return flat_->scene_of(p); });
   work_ += geometry->face_count();
   meshes_.put(*gl_, std::move(geometry));
-  if (!loose) meshes_.make_coarse(*gl_, fault);
+  if (!loose) coarse_made_.reset();
   counters.uploads = meshes_.uploads();
   upload_numbers(fault);
 }
@@ -357,7 +383,7 @@ DrawingMarks SceneDrawing::pillar_marks(Id fault, bool loose) const {
     const bool picked = selection.pillars().contains(pillar.id) ||
                         (loose && pillar.id != 0 && pillar.id == workbench_.picking.active_pillar());
     const bool hot = hovered.kind == Item::Kind::kPillar && hovered.id == pillar.id;
-    QColor colour = own.lighter(loose ? 150 : 115);
+    QColor colour = loose ? mixed(own, QColor(Qt::white), 0.45) : own.lighter(115);
     if (picked) colour = QColor(Qt::white);
     if (hot) colour = colours_.accent;
     if (pillar.kind == survey::PillarKind::kInterpolated && !picked) colour.setAlphaF(0.6F);
@@ -371,9 +397,9 @@ DrawingMarks SceneDrawing::pillar_marks(Id fault, bool loose) const {
       if (!loose && !bare && !picked) continue;
       const bool node_picked = selection.nodes().contains(node.id);
       const bool node_hot = hovered.kind == Item::Kind::kNode && hovered.id == node.id;
-      const QColor fill = node_picked ? colours_.accent : picked || node_hot ? QColor(Qt::white) : colour;
-      const QColor rim = node_picked || node_hot ? QColor(Qt::white) : colours_.bottom;
-      const float diameter = node_hot ? 12.0F : node_picked ? 11.0F : picked ? 8.5F : 6.5F;
+      const QColor fill = node_picked ? colours_.accent : QColor(Qt::white);
+      const QColor rim = node_picked ? QColor(Qt::white) : own.darker(140);
+      const float diameter = node_hot || node_picked ? 11.0F : picked ? 9.0F : 7.5F;
       marks.dots.push_back({at, rgba_of(fill), rgba_of(rim), diameter});
     }
   }
@@ -426,18 +452,24 @@ void SceneDrawing::refresh_loose_marks() {
   if (!std::exchange(loose_marks_old_, false)) return;
   DrawingMarks marks;
   const std::set<Id> shown = shown_faults();
-  for (const Id fault : loose_faults()) {
+  const std::set<Id> loose = loose_faults();
+  for (const Id fault : loose) {
     if (!shown.contains(fault)) continue;
     const DrawingMarks own = pillar_marks(fault, true);
     marks.lines.insert(marks.lines.end(), own.lines.begin(), own.lines.end());
     marks.dots.insert(marks.dots.end(), own.dots.begin(), own.dots.end());
-    const FaultGeometry* geometry_of = meshes_.geometry(fault);
-    if (geometry_of == nullptr || geometry_of->face_count() > kLooseTriangles) continue;
-    QColor rim = colours_.accent;
-    rim.setAlphaF(0.9F);
-    const std::vector<Vec3f>& outline = geometry_of->outline();
+  }
+  std::set<Id> outlined = workbench_.selection.faults();
+  outlined.insert(loose.begin(), loose.end());
+  std::size_t faces = 0;
+  for (const Id fault : outlined) {
+    const FaultGeometry* mesh = meshes_.geometry(fault);
+    if (mesh == nullptr || !shown.contains(fault)) continue;
+    faces += mesh->face_count();
+    if (faces > 4 * kLooseTriangles) break;
+    const std::vector<Vec3f>& outline = mesh->outline();
     for (std::size_t n = 0; n + 1 < outline.size(); n += 2) {
-      marks.lines.push_back({outline[n], outline[n + 1], rgba_of(rim), 1.6F});
+      marks.lines.push_back({outline[n], outline[n + 1], rgba_of(colours_.accent), 1.6F});
     }
   }
   const auto flat_point = [this](const survey::IndexPoint& p) { return Vec3f(flat_->scene_of(p)); };

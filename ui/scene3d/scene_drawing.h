@@ -40,6 +40,7 @@ class SceneDrawing {
   void surfaces_changed(const std::set<Id>& faults);
   void numbers_changed(const std::set<Id>& faults);
   void pillars_changed(const std::set<Id>& faults);
+  void selection_changed();
   void content_changed();  // of what stands still
   void loose_changed();    // of what may move, alone
   void camera_moved();
@@ -111,6 +112,7 @@ class SceneDrawing {
   void draw_step(const Pass& pass, const Step& step);
   void draw_background(const Pass& pass);
   void draw_plane(const Pass& pass, Id plane);
+  int quick_level() const;  // of coarse faces; -1: all
   void draw_quickly(const Pass& pass);
   void draw_loose(const Pass& pass);
   void draw_over(const Pass& pass);
@@ -145,6 +147,8 @@ class SceneDrawing {
   TextImages texts_;
 
   std::set<Id> meshes_to_upload_, numbers_to_upload_;
+  std::set<Id> standing_picks_;     // selected pillars of faults that are not loose
+  std::optional<int> coarse_made_;  // the level that all standing faults have
   std::map<Id, std::shared_ptr<const SectionSamples>> samples_to_upload_;
   std::optional<std::pair<std::shared_ptr<const Picture>, render::Matrix4>> picture_to_upload_;
   bool static_marks_old_ = true, camera_marks_old_ = true, loose_marks_old_ = true, flat_old_ = true;

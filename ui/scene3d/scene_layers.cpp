@@ -117,21 +117,25 @@ void SceneDrawing::draw_plane(const Pass& pass, Id plane) {
   planes_.draw(*gl_, pass, plane, place_of(samples->section, *frame_), how);
 }
 
+int SceneDrawing::quick_level() const {
+  const std::set<Id> shown = shown_faults();
+  const auto last = static_cast<int>(FaultMeshes::kCoarse.size()) - 1;
+  for (int level = -1; level < last; ++level) {
+    std::size_t all = 0;
+    for (const Id fault : shown)
+      all += level < 0 ? meshes_.face_count(fault) : meshes_.coarse_count(fault, level);
+    if (all <= kQuickTriangles) return level;
+  }
+  return last;
+}
+
 void SceneDrawing::draw_quickly(const Pass& pass) {
   Pass quick = pass;
   quick.quick = true;
   ++counters.coarse_frames;
   draw_background(quick);
   const std::set<Id> shown = shown_faults();
-  const auto sum = [&](auto&& count) {
-    std::size_t all = 0;
-    for (const Id fault : shown) all += count(fault);
-    return all;
-  };
-  int level = -1;  // all faces
-  if (sum([&](Id fault) { return meshes_.face_count(fault); }) > kQuickTriangles) level = 0;
-  if (level == 0 && sum([&](Id fault) { return meshes_.coarse_count(fault, 0); }) > kQuickTriangles)
-    level = 1;
+  const int level = quick_level();
   std::size_t drawn = 0;
   for (const Id fault : shown) {
     if (drawn > kQuickTriangles) break;
@@ -196,6 +200,15 @@ bool SceneDrawing::work() {
   while (has_budget_left() && upload_one()) continue;
   if (moving_ || !has_budget_left()) return has_work();
   refresh_range();
+  if (const int level = quick_level(); level >= 0 && coarse_made_ != level) {
+    const std::set<Id> loose = loose_faults();
+    for (const Id fault : shown_faults()) {
+      if (!has_budget_left()) return true;
+      if (loose.contains(fault) || !meshes_.make_coarse(*gl_, fault, level)) continue;
+      work_ += meshes_.face_count(fault);
+    }
+    coarse_made_ = level;
+  }
   const Pass pass = pass_now();
   if (front_old_ || (!front_valid_ && !back_.under_way)) {
     front_old_ = false;

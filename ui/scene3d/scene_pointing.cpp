@@ -33,6 +33,22 @@ Ray flattened(const Ray& ray, double heights) {
 
 }  // namespace
 
+// False where the picture of the fault's box tells that nothing of it is caught at the pixel.
+bool SceneView::Private::may_be_near(Id fault, const QPointF& pixel, const render::Camera& camera) const {
+  const FaultGeometry* mesh = drawing.geometry(fault);
+  if (mesh == nullptr || workbench.document.is_provisional(fault)) return true;
+  const render::Bounds& box = mesh->bounds();
+  QRectF seen;
+  for (unsigned n = 0; n < 8; ++n) {
+    QPointF at;
+    const Vec3 corner{(n & 1U) != 0 ? box.hi.x : box.lo.x, (n & 2U) != 0 ? box.hi.y : box.lo.y,
+                      ((n & 4U) != 0 ? box.hi.z : box.lo.z) * drawing.heights()};
+    if (!project_to(camera, size(), corner, &at)) return true;
+    seen = n == 0 ? QRectF(at, QSizeF(0.1, 0.1)) : seen.united(QRectF(at, QSizeF(0.1, 0.1)));
+  }
+  return seen.adjusted(-kNodeCatch, -kNodeCatch, kNodeCatch, kNodeCatch).contains(pixel);
+}
+
 // Nodes and pillars of visible faults near the pixel, none farther than `nearest` along the view.
 std::optional<Item> SceneView::Private::node_or_pillar_at(const QPointF& pixel, double nearest,
                                                           int* segment) const {
@@ -46,6 +62,7 @@ std::optional<Item> SceneView::Private::node_or_pillar_at(const QPointF& pixel, 
     // Nodes are caught where they are drawn: of the active fault, of picked pillars, of faults without faces.
     const bool nodes_shown =
         fault == workbench.selection.active_fault() || drawing.geometry(fault) == nullptr || !has_active;
+    if (!may_be_near(fault, pixel, camera)) continue;
     for (const survey::Pillar& pillar : workbench.document.shown_pillars(fault)) {
       bool has_last = false;
       QPointF last;

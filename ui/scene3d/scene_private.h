@@ -54,6 +54,7 @@ struct SceneView::Private {
   QSizeF size() const { return QSizeF(view.size()); }
 
   // Pointing.
+  bool may_be_near(Id fault, const QPointF& pixel, const render::Camera& camera) const;
   std::optional<Item> node_or_pillar_at(const QPointF& pixel, double nearest, int* segment) const;
   Id frame_at(const QPointF& pixel) const;
   Pointer pointer_of(const Under& under, const QPointF& pixel, Qt::MouseButton button,

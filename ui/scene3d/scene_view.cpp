@@ -124,7 +124,7 @@ void SceneView::Private::connect_models() {
                      changed();
                    });
   QObject::connect(&workbench.selection, &Selection::changed, &view, [this] {
-    drawing.pillars_changed(drawing.shown_faults());
+    drawing.selection_changed();
     changed();
   });
   QObject::connect(&workbench.selection, &Selection::active_fault_changed, &view, [this] {
@@ -144,7 +144,7 @@ void SceneView::Private::connect_models() {
   });
   QObject::connect(&display, &Display::visibility_changed, &view, [this] {
     drawing.pillars_changed(drawing.shown_faults());
-    drawing.numbers_changed({});
+    drawing.numbers_changed(drawing.shown_faults());
     drawing.content_changed();
     changed();
   });
@@ -337,12 +337,16 @@ void SceneView::Private::do_work() {
     const std::uint64_t layers = drawing.counters.layers;
     view.makeCurrent();
     bool more = false;
+    QElapsedTimer clock;
+    clock.start();
     try {
       more = drawing.work();
     } catch (const Error& error) {
       log::warn("the scene could not be drawn: " + error.message());
     }
     view.doneCurrent();
+    double& longest = drawing.counters.longest_slice_ms;
+    longest = std::max(longest, static_cast<double>(clock.nsecsElapsed()) / 1e6);
     if (layers != drawing.counters.layers || was_shown != drawing.has_front() ||
         was_fine != drawing.is_fine())
       view.update();

@@ -34,6 +34,7 @@ struct SceneCounters {
   std::uint64_t triangles = 0;        // of faults, everywhere
   std::uint64_t frame_triangles = 0;  // of the last frame alone
   std::uint64_t uploads = 0;          // of whole meshes to the graphics card
+  double longest_slice_ms = 0;        // of work between events
 };
 
 class SceneView final : public QOpenGLWidget {

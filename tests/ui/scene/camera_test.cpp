@@ -149,7 +149,7 @@ void CameraTest::coarse_faces_are_few_and_an_outline_goes_around() {
   std::mt19937 random(8);
   const FaultGeometry mesh(random_surface(random, 60), as_it_is);
   const CoarseFaces few = mesh.coarse(400);
-  QVERIFY(few.faces.size() > 100 && few.faces.size() <= 800);
+  QVERIFY(few.faces.size() > 150 && few.faces.size() <= 400);
   QCOMPARE(few.corners.size(), 3 * few.faces.size());
   for (const std::uint32_t corner : few.corners) QVERIFY(corner < mesh.positions().size());
   QCOMPARE(mesh.coarse(100000).faces.size(), mesh.face_count());

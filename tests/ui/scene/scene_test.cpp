@@ -34,6 +34,8 @@ class SceneTest final : public QObject {
   void exports_in_tiles();
   void exaggerates_without_uploads();
   void rests_when_nothing_happens();
+  void survives_another_window();
+  void forgets_deleted_faults();
   void shows_the_light_theme_and_no_survey();
 };
 
@@ -196,6 +198,39 @@ void SceneTest::rests_when_nothing_happens() {
   QTest::qWait(700);
   QCOMPARE(scene.view->counters().frames, frames);
   QCOMPARE(scene.view->counters().triangles, triangles);
+}
+
+void SceneTest::survives_another_window() {
+  MadeScene scene;
+  QVERIFY(scene.settle());
+  const QImage before = scene.grabbed("before_move");
+  QWidget other;
+  other.resize(1000, 800);
+  scene.view->setParent(&other);
+  scene.view->setGeometry(20, 20, 900, 700);
+  other.show();
+  scene.view->show();
+  QVERIFY(scene.settle());
+  QVERIFY(differing(before, scene.grabbed("after_move")) < 200);
+  scene.view->setParent(nullptr);
+}
+
+void SceneTest::forgets_deleted_faults() {
+  MadeScene scene;
+  QVERIFY(scene.settle());
+  const QImage before = scene.grabbed("before_delete");
+  const Id gone = scene.first_fault();
+  scene.bench.document.edit("Delete", [&](project::Interpretation& now) { now.delete_fault(gone); });
+  QVERIFY(scene.settle());
+  QVERIFY(differing(before, scene.grabbed("deleted")) > 3000);
+  for (int y = 20; y < 700; y += 13) {
+    for (int x = 20; x < 900; x += 13)
+      QVERIFY(scene.view->under(QPointF(x, y)).item.id != gone ||
+              scene.view->under(QPointF(x, y)).item.kind != Item::Kind::kFace);
+  }
+  scene.bench.document.undo();
+  QVERIFY(scene.settle());
+  QVERIFY(differing(before, scene.grabbed("undone")) < 200);
 }
 
 void SceneTest::shows_the_light_theme_and_no_survey() {
