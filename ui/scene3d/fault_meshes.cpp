@@ -40,7 +40,6 @@ void FaultMeshes::put(Gl& gl, std::shared_ptr<const FaultGeometry> geometry) {
   const float unknown = std::numeric_limits<float>::quiet_NaN();
   mesh.faces.set(gl, std::vector<std::array<float, 2>>(mesh.geometry->face_count(), {unknown, 0.0F}));
   for (Coarse& coarse : mesh.coarse) coarse.made = false;
-  ++uploads_;
 }
 
 void FaultMeshes::put_numbers(Gl& gl, Id fault, std::span<const double> values,
@@ -74,23 +73,27 @@ std::size_t FaultMeshes::face_count(Id fault) const {
   return geometry_of == nullptr ? 0 : geometry_of->face_count();
 }
 
-GlProgram& FaultMeshes::prepare(Gl& gl, const Pass& pass, const Mesh& mesh, const FaceColouring& how,
-                                bool edges) {
-  GlProgram& program = edges ? edged_ : smooth_;
+void FaultMeshes::look_through(Gl& gl, const Pass& pass) {
   const render::Camera& camera = pass.camera;
-  program.set(gl, "view_projection", camera.view_projection);
-  program.set(gl, "heights", static_cast<float>(pass.heights));
+  for (GlProgram* program : {&smooth_, &edged_}) {
+    program->set(gl, "view_projection", camera.view_projection);
+    program->set(gl, "heights", static_cast<float>(pass.heights));
+    program->set(gl, "colours", 0);
+    program->set(gl, "eye", camera.eye);
+    program->set(gl, "forward", camera.forward);
+    program->set(gl, "lamp", camera.right * -0.66 + camera.up * 0.55 + camera.forward * -0.51);
+    program->set(gl, "perspective", camera.perspective ? 1 : 0);
+    program->set(gl, "pixel", static_cast<float>(pass.pixel));
+  }
+}
+
+GlProgram& FaultMeshes::prepare(Gl& gl, const Mesh& mesh, const FaceColouring& how, bool edges) {
+  GlProgram& program = edges ? edged_ : smooth_;
   program.set(gl, "plain", how.plain ? 1 : 0);
   program.set(gl, "all_hatched", how.hatched ? 1 : 0);
   program.set(gl, "plain_colour", how.plain_colour);
   program.set(gl, "undefined_colour", how.undefined_colour);
   program.set(gl, "range", how.range);
-  program.set(gl, "colours", 0);
-  program.set(gl, "eye", camera.eye);
-  program.set(gl, "forward", camera.forward);
-  program.set(gl, "lamp", camera.right * -0.66 + camera.up * 0.55 + camera.forward * -0.51);
-  program.set(gl, "perspective", camera.perspective ? 1 : 0);
-  program.set(gl, "pixel", static_cast<float>(pass.pixel));
   program.use(gl);
   gl.glBindTextureUnit(0, how.colours);
   gl.glBindVertexArray(layout_);
@@ -98,14 +101,14 @@ GlProgram& FaultMeshes::prepare(Gl& gl, const Pass& pass, const Mesh& mesh, cons
   return program;
 }
 
-std::size_t FaultMeshes::draw(Gl& gl, const Pass& pass, Id fault, const FaceColouring& how, std::size_t first,
+std::size_t FaultMeshes::draw(Gl& gl, Id fault, const FaceColouring& how, std::size_t first,
                               std::size_t count) {
   const auto found = meshes_.find(fault);
   if (found == meshes_.end()) return 0;
   const Mesh& mesh = found->second;
   count = std::min(count, mesh.geometry->face_count() - std::min(first, mesh.geometry->face_count()));
   if (count == 0) return 0;
-  GlProgram& program = prepare(gl, pass, mesh, how, how.edges);
+  GlProgram& program = prepare(gl, mesh, how, how.edges);
   program.set(gl, "first_face", static_cast<int>(first));
   program.set(gl, "coarse", 0);
   if (how.edges) {
@@ -143,17 +146,16 @@ std::size_t FaultMeshes::coarse_count(Id fault, int level) const {
   return std::min(face_count(fault), kCoarse.at(static_cast<std::size_t>(level)));
 }
 
-std::size_t FaultMeshes::draw_coarse(Gl& gl, const Pass& pass, Id fault, const FaceColouring& how,
-                                     int level) {
+std::size_t FaultMeshes::draw_coarse(Gl& gl, Id fault, const FaceColouring& how, int level) {
   const auto found = meshes_.find(fault);
   if (found == meshes_.end()) return 0;
   Mesh& mesh = found->second;
   const std::size_t most = kCoarse.at(static_cast<std::size_t>(level));
-  if (mesh.geometry->face_count() <= most) return draw(gl, pass, fault, how, 0, mesh.geometry->face_count());
+  if (mesh.geometry->face_count() <= most) return draw(gl, fault, how, 0, mesh.geometry->face_count());
   Coarse& coarse = mesh.coarse.at(static_cast<std::size_t>(level));
   if (!coarse.made) make(gl, mesh, static_cast<std::size_t>(level));
   if (coarse.count == 0) return 0;
-  GlProgram& program = prepare(gl, pass, mesh, how, false);
+  GlProgram& program = prepare(gl, mesh, how, false);
   program.set(gl, "first_face", 0);
   program.set(gl, "coarse", 1);
   gl.glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, coarse.faces.name());

@@ -36,17 +36,17 @@ class FaultMeshes {
   const FaultGeometry* geometry(Id fault) const;
   std::size_t face_count(Id fault) const;
 
+  // The camera of the draws that follow.
+  void look_through(Gl& gl, const Pass& pass);
   // Faces [first, first + count); returns the number drawn.
-  std::size_t draw(Gl& gl, const Pass& pass, Id fault, const FaceColouring& how, std::size_t first,
-                   std::size_t count);
+  std::size_t draw(Gl& gl, Id fault, const FaceColouring& how, std::size_t first, std::size_t count);
   // Of a level: at most so many faces. The buffers are made at the first call.
-  static constexpr std::array<std::size_t, 3> kCoarse{1500, 220, 60};
+  static constexpr std::array<std::size_t, 3> kCoarse{1500, 300, 90};
   std::size_t coarse_count(Id fault, int level) const;
   // So that the first move of the camera need not make it.
   // False where there was nothing to do.
   bool make_coarse(Gl& gl, Id fault, int level);
-  std::size_t draw_coarse(Gl& gl, const Pass& pass, Id fault, const FaceColouring& how, int level);
-  std::size_t uploads() const { return uploads_; }  // of whole meshes, so far
+  std::size_t draw_coarse(Gl& gl, Id fault, const FaceColouring& how, int level);
 
  private:
   struct Coarse {
@@ -60,13 +60,12 @@ class FaultMeshes {
     std::array<Coarse, kCoarse.size()> coarse;
   };
   void make(Gl& gl, Mesh& mesh, std::size_t level);
-  GlProgram& prepare(Gl& gl, const Pass& pass, const Mesh& mesh, const FaceColouring& how, bool edges);
+  GlProgram& prepare(Gl& gl, const Mesh& mesh, const FaceColouring& how, bool edges);
   void drop(Gl& gl, Mesh& mesh);
 
   GlProgram smooth_, edged_;
   GLuint layout_ = 0;
   std::map<Id, Mesh> meshes_;
-  std::size_t uploads_ = 0;
 };
 
 }  // namespace footwall::ui

@@ -264,7 +264,7 @@ bool SceneDrawing::upload_one() {
 
 void SceneDrawing::upload(Id fault, bool loose) {
   meshes_to_upload_.erase(fault);
-  loose_marks_old_ = flat_old_ = true;
+  loose_marks_old_ = range_old_ = true;
   const auto surface = source.surface(fault);
   if (!surface || surface->faces.empty() || !flat_ || workbench_.document.fault(fault) == nullptr) {
     meshes_.remove(*gl_, fault);
@@ -277,13 +277,13 @@ void SceneDrawing::upload(Id fault, bool loose) {
   work_ += geometry->face_count();
   meshes_.put(*gl_, std::move(geometry));
   if (!loose) coarse_made_.reset();
-  counters.uploads = meshes_.uploads();
+  ++counters.uploads;
   upload_numbers(fault);
 }
 
 void SceneDrawing::upload_numbers(Id fault) {
   numbers_to_upload_.erase(fault);
-  flat_old_ = true;
+  range_old_ = true;
   const auto numbers = source.numbers(fault, workbench_.display.faces().statistic);
   if (!numbers) return;
   meshes_.put_numbers(*gl_, fault, numbers->values, numbers->stale, numbers->hatched);
@@ -293,14 +293,15 @@ void SceneDrawing::upload_numbers(Id fault) {
 void SceneDrawing::refresh_range() {
   if (!std::exchange(range_old_, false)) return;
   const FaceLook& look = workbench_.display.faces();
-  range_.reset();
   if (look.low && look.high) {
     range_ = {*look.low, *look.high};
-    return;
+  } else {
+    range_ = source.range(shown_faults(), look.statistic);
+    if (range_ && look.low) range_->first = *look.low;
+    if (range_ && look.high) range_->second = *look.high;
   }
-  range_ = source.range(shown_faults(), look.statistic);
-  if (range_ && look.low) range_->first = *look.low;
-  if (range_ && look.high) range_->second = *look.high;
+  bar_ = colour_bar();
+  flat_old_ = true;
 }
 
 GLuint SceneDrawing::colours_named(const QString& name) const {
@@ -332,8 +333,7 @@ FaceColouring SceneDrawing::colouring_of(Id fault) const {
   how.hatched = state == Freshness::kStale;
   if (how.plain) return how;
   how.range = {static_cast<float>(range_->first), static_cast<float>(range_->second)};
-  const auto bar = colour_bar();
-  const std::string_view name = bar && bar->colours != nullptr ? bar->colours->name() : "viridis";
+  const std::string_view name = bar_ ? bar_->colours->name() : "viridis";
   how.colours = colours_named(QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())));
   return how;
 }
@@ -487,8 +487,8 @@ void SceneDrawing::refresh_flat(const QSizeF& view, TextImages& texts, double pi
     sprites.push_back(
         {image, Vec3f(static_cast<float>(at.x()), static_cast<float>(at.y()), 0), {0, 0}, true});
   };
-  if (const auto bar = colour_bar()) {
-    const QImage image = colour_bar_image(*bar, colours_, font_, pixel);
+  if (bar_) {
+    const QImage image = colour_bar_image(*bar_, colours_, font_, pixel);
     const QSizeF size = image.deviceIndependentSize();
     add(image, {view.width() - size.width() - 12, view.height() - size.height() - 12});
   }

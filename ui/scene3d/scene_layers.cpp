@@ -59,6 +59,7 @@ void SceneDrawing::begin(GLuint target, const Pass& pass) {
   gl.glDisable(GL_CULL_FACE);
   gl.glDisable(GL_SCISSOR_TEST);
   gl.glDisable(GL_STENCIL_TEST);
+  meshes_.look_through(gl, pass);
 }
 
 bool SceneDrawing::go_on(Layer& layer, const Pass& pass) {
@@ -72,7 +73,7 @@ void SceneDrawing::draw_step(const Pass& pass, const Step& step) {
     case Step::Kind::kBackground:
       return draw_background(pass);
     case Step::Kind::kFaces:
-      spend(meshes_.draw(gl, pass, step.id, colouring_of(step.id), step.first, step.count));
+      spend(meshes_.draw(gl, step.id, colouring_of(step.id), step.first, step.count));
       return;
     case Step::Kind::kPlane:
       return draw_plane(pass, step.id);
@@ -111,8 +112,13 @@ void SceneDrawing::draw_plane(const Pass& pass, Id plane) {
   const SectionSamples* samples = planes_.samples(plane);
   if (samples == nullptr || !frame_) return;
   const SampleLook& look = workbench_.display.samples();
-  const PlaneLook how{range_of(look, workbench_.sections.facts(samples->volume), *samples),
-                      colours_named(look.colour_map), look.interpolate};
+  // Sorting the samples of a volume that is not known yet is not for every frame.
+  const SectionReader::VolumeFacts* facts = workbench_.sections.facts(samples->volume);
+  PlaneRange& known = plane_ranges_[plane];
+  if (known.samples != samples || known.facts != facts || !(known.look == look)) {
+    known = {samples, facts, look, range_of(look, facts, *samples)};
+  }
+  const PlaneLook how{known.range, colours_named(look.colour_map), look.interpolate};
   // Where the samples are from: those of a plane that moves may come a little later.
   planes_.draw(*gl_, pass, plane, place_of(samples->section, *frame_), how);
 }
@@ -143,8 +149,8 @@ void SceneDrawing::draw_quickly(const Pass& pass) {
     if (count == 0) continue;
     FaceColouring how = colouring_of(fault);
     how.edges = how.edges && level < 0;
-    drawn += spend(level < 0 ? meshes_.draw(*gl_, quick, fault, how, 0, count)
-                             : meshes_.draw_coarse(*gl_, quick, fault, how, level));
+    drawn += spend(level < 0 ? meshes_.draw(*gl_, fault, how, 0, count)
+                             : meshes_.draw_coarse(*gl_, fault, how, level));
   }
   for (const Display::ShownSection& section : workbench_.display.sections()) {
     if (section.in_scene) draw_plane(quick, section.id);
@@ -163,8 +169,8 @@ void SceneDrawing::draw_loose(const Pass& pass) {
     if (!shown.contains(fault)) continue;
     const std::size_t count = meshes_.face_count(fault);
     const FaceColouring how = colouring_of(fault);
-    spend(count <= kLooseTriangles ? meshes_.draw(*gl_, pass, fault, how, 0, count)
-                                   : meshes_.draw_coarse(*gl_, pass, fault, how, 0));
+    spend(count <= kLooseTriangles ? meshes_.draw(*gl_, fault, how, 0, count)
+                                   : meshes_.draw_coarse(*gl_, fault, how, 0));
   }
   for (const Id plane : std::set<Id>{front_.loose_plane, loose_plane_}) {
     const bool is_shown =
@@ -251,7 +257,6 @@ bool SceneDrawing::work() {
 void SceneDrawing::paint(GLuint framebuffer) {
   ++counters.frames;
   counters.frame_triangles = 0;
-  refresh_range();
   // A fault under the mouse must be on its way at once.
   for (const Id fault : loose_faults()) {
     if (meshes_to_upload_.contains(fault)) upload(fault, true);
@@ -262,6 +267,7 @@ void SceneDrawing::paint(GLuint framebuffer) {
     planes_.put(*gl_, waiting->first, waiting->second);
     samples_to_upload_.erase(waiting);
   }
+  refresh_range();
   const Pass pass = pass_now();
   frame_target_.resize(*gl_, pass.width, pass.height, 1);
   if (fine_valid_ && front_valid_) {

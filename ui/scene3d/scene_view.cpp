@@ -486,6 +486,10 @@ const SceneCounters& SceneView::counters() const {
   return d_->drawing.counters;
 }
 
+void SceneView::reset_counters() {
+  d_->drawing.counters = {};
+}
+
 QString SceneView::problem() const {
   return d_->problem;
 }

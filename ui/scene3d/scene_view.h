@@ -75,6 +75,7 @@ class SceneView final : public QOpenGLWidget {
   std::optional<QPointF> pixel_of(const survey::IndexPoint& place) const;
 
   const SceneCounters& counters() const;
+  void reset_counters();
   // Nothing is left to upload or to draw finer.
   bool is_settled() const;
   // Why there is no scene (no OpenGL 4.5); empty where there is one.

@@ -1,6 +1,7 @@
 // 200 faults with a million triangles: what a mouse move draws, and that it does not grow with the scene.
 #include <QElapsedTimer>
 #include <QTest>
+#include <ctime>
 
 #include "ui/scene/made_scene.h"
 #include "ui/test_class.h"
@@ -52,6 +53,7 @@ void SpeedTest::a_mouse_move_draws_what_moves() {
   const Id id = edited.record.id;
   QVERIFY(scene.settle());
   scene.grabbed("million");
+  scene.view->reset_counters();  // without the driver's compiling of each shader
   const SceneCounters& counters = scene.view->counters();
   // Drawn at once, and read back, which a window does not.
   const auto frame_ms = [&] {
@@ -61,6 +63,10 @@ void SpeedTest::a_mouse_move_draws_what_moves() {
     return static_cast<double>(clock.nsecsElapsed()) / 1e6;
   };
 
+  auto cpu_ms = [last = std::clock()]() mutable {
+    const std::clock_t now = std::clock();
+    return 1e3 * static_cast<double>(now - std::exchange(last, now)) / CLOCKS_PER_SEC;
+  };
   const std::uint64_t layers = counters.layers;
   const std::uint64_t uploads = counters.uploads;
   std::vector<double> drags;
@@ -79,16 +85,19 @@ void SpeedTest::a_mouse_move_draws_what_moves() {
   scene.grabbed("million_dragged");
   scene.bench.document.end_provisional();
 
+  const auto drag_cpu = cpu_ms() / static_cast<double>(drags.size());
   std::vector<double> turns;
   const std::uint64_t coarse = counters.coarse_frames;
+  cpu_ms();
   for (int n = 0; n < 12; ++n) {
     QTest::keyClick(scene.view.get(), Qt::Key_Right);
     const std::uint64_t frames = counters.frames;
     turns.push_back(frame_ms());
     QVERIFY(counters.frames > frames);
-    QVERIFY(counters.frame_triangles <= 50'000);
-    QVERIFY(counters.frame_triangles > 20'000);
+    QVERIFY(counters.frame_triangles <= 20'000);
+    QVERIFY(counters.frame_triangles > 5'000);
   }
+  const auto turn_cpu = cpu_ms() / static_cast<double>(turns.size());
   QVERIFY2(counters.coarse_frames >= coarse + 12,
            qPrintable(QString::number(counters.coarse_frames - coarse)));
   scene.grabbed("million_turned");
@@ -109,6 +118,8 @@ void SpeedTest::a_mouse_move_draws_what_moves() {
   std::ranges::sort(turns);
   qInfo("%zu triangles: drag frame median %.1f ms, longest %.1f; coarse frame median %.1f ms, longest %.1f",
         triangles, drags[drags.size() / 2], drags.back(), turns[turns.size() / 2], turns.back());
+  qInfo("processor time of all threads: a drag with its surface made %.1f ms, a coarse frame %.1f ms",
+        drag_cpu, turn_cpu);
   qInfo("whole again after %lld ms, longest slice %.1f ms; what is under a pixel %.2f ms", settled,
         counters.longest_slice_ms, pick_ms);
 }
