@@ -36,7 +36,7 @@ class SceneDrawing {
   OrbitCamera camera;
   void set_style(const SceneColours& colours, const QFont& font, double pixel);
   void set_view(const QSizeF& view) { view_ = view; }
-  void survey_changed();
+  void survey_changed();  // or the exaggeration
   void surfaces_changed(const std::set<Id>& faults);
   void numbers_changed(const std::set<Id>& faults);
   void pillars_changed(const std::set<Id>& faults);
@@ -139,6 +139,8 @@ class SceneDrawing {
   std::optional<render::SceneFrame> frame_;  // exaggerated
   std::optional<render::SceneFrame> flat_;
   double heights_ = 1;
+  int frame_number_ = 0;  // another one means other positions
+  std::map<Id, int> uploaded_in_;
 
   FaultMeshes meshes_;
   SectionPlanes planes_;

@@ -168,10 +168,12 @@ void SceneTest::exports_in_tiles() {
   const QString folder = qEnvironmentVariable("FOOTWALL_PICTURES");
   if (!folder.isEmpty()) twice.save(QDir(folder).filePath("export.png"));
   // The same picture, and no seams at the tiles' ends.
-  const QImage small = twice.scaled(900, 700, Qt::IgnoreAspectRatio, Qt::SmoothTransformation)
-                           .convertToFormat(QImage::Format_RGB32);
-  QVERIFY2(differing(shown, small, 60) < 900 * 700 / 40,
-           qPrintable(QString::number(differing(shown, small, 60))));
+  const auto smaller = [](const QImage& image) {
+    return image.scaled(900, 700, Qt::IgnoreAspectRatio, Qt::SmoothTransformation)
+        .convertToFormat(QImage::Format_RGB32);
+  };
+  const std::size_t others = differing(smaller(shown), smaller(twice), 60);
+  QVERIFY2(others < 900 * 700 / 40, qPrintable(QString::number(others)));
   QVERIFY(scene.view->picture(QSize(0, 10), 1, &problem).isNull());
   QVERIFY(!problem.isEmpty());
   QVERIFY(!scene.view->export_png("/nowhere/at/all.png", QSize(40, 30), 1, &problem));
