@@ -121,8 +121,11 @@ void SceneView::Private::connect_models() {
                    });
   QObject::connect(&workbench.engine, &EngineLink::picture, &view,
                    [this](const std::shared_ptr<const Picture>& picture) { picture_came(picture); });
+  QObject::connect(&workbench.engine, &EngineLink::failed, &view, [this] { stop_waiting(); });
   QObject::connect(&workbench.engine, &EngineLink::state_changed, &view, [this] {
-    if (workbench.engine.state() == EngineLink::State::kReady && last_picture == 0) ask_for_picture();
+    const EngineLink::State state = workbench.engine.state();
+    if (state == EngineLink::State::kReady && last_picture == 0) ask_for_picture();
+    if (state == EngineLink::State::kOff || state == EngineLink::State::kLost) stop_waiting();
   });
 }
 
@@ -216,13 +219,23 @@ void SceneView::Private::ask_for_picture() {
     return;
   }
   last_picture = drawing.source.draw(request);
-  if (last_picture == 0) {  // no engine: nothing will come
-    drawing.picture_share = 1;
+  if (last_picture == 0) {  // no engine: nothing will come, and what is there is of another camera or value
+    drawing.clear_picture();
+    stop_waiting();
     return;
   }
   pictures_asked[last_picture] = request.view_projection;
   passes = 0;
   drawing.picture_share = 0;
+  drawing.loose_changed();
+  changed();
+}
+
+// No picture will come for what was asked last.
+void SceneView::Private::stop_waiting() {
+  pictures_asked.clear();
+  last_picture = 0;
+  if (std::exchange(drawing.picture_share, 1) == 1) return;
   drawing.loose_changed();
   changed();
 }

@@ -46,6 +46,7 @@ struct SceneView::Private {
   void sections_changed();
   void ask_for_samples();
   void ask_for_picture();
+  void stop_waiting();
   void picture_came(const std::shared_ptr<const Picture>& picture);
   void camera_moved();
   void changed();  // something is to be drawn

@@ -40,6 +40,7 @@ SceneView::SceneView(Workbench& workbench, QWidget* parent)
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
   setMinimumSize(120, 90);
+  setAccessibleName(tr("Scene"));
   Workbench& models = workbench;
   set_source({[&models](Id fault) { return models.surfaces.surface(fault); },
               [&models](Id fault, const QString& name) { return models.surfaces.numbers(fault, name); },

@@ -76,7 +76,7 @@ class MadeScene {
          },
          [this](const PictureRequest& request) {
            asked = request;
-           return ++pictures;
+           return has_engine ? ++pictures : 0;
          },
          [this](QObject* asker, Id volume, const Section& section) { give(asker, volume, section); }});
     view->resize(900, 700);
@@ -143,6 +143,7 @@ class MadeScene {
   Freshness freshness = Freshness::kFresh;
   PictureRequest asked;
   std::uint64_t pictures = 0;
+  bool has_engine = true;
   Id inline_plane = 0, slice_plane = 0;
   std::unique_ptr<SceneView> view;
 

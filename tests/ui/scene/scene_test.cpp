@@ -136,6 +136,21 @@ void SceneTest::merges_pictures_by_depth() {
   // Lines of the box and of frames lie over some.
   QVERIFY2(wrong < 0.03 * 147 * 247, qPrintable(QString::number(wrong)));
   QVERIFY(bare != merged);
+  const auto purple = [](const QImage& image) {
+    int count = 0;
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) count += image.pixelColor(x, y) == QColor(255, 0, 255) ? 1 : 0;
+    }
+    return count;
+  };
+  // While the camera moves the picture moves along, and goes where no engine can make another.
+  const int seen = purple(merged);
+  QTest::keyClick(scene.view.get(), Qt::Key_Left);
+  const int moving = purple(scene.grabbed("isosurface_moving"));
+  QVERIFY2(moving > seen / 3, qPrintable(QString::number(moving)));
+  scene.has_engine = false;
+  QVERIFY(scene.settle());
+  QCOMPARE(purple(scene.grabbed("isosurface_gone")), 0);
 }
 
 void SceneTest::drops_pictures_of_another_camera() {
