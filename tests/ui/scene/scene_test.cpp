@@ -78,7 +78,11 @@ void SceneTest::merges_pictures_by_depth() {
   QVERIFY(scene.pictures > 0);
   QCOMPARE(scene.asked.width, 900);
   QCOMPARE(scene.asked.isosurfaces.size(), std::size_t{1});
-  // A ball of one colour around the survey's middle, drawn here as the engine would.
+  // A line at the top tells that a picture is on its way.
+  const QColor accent(0x4a, 0xa3, 0xdf);
+  QVERIFY(scene.settle());
+  QCOMPARE(scene.grabbed("waiting").pixelColor(2, 0), accent);
+  // A picture of one colour, with depths as the engine would send them.
   const auto picture = std::make_shared<Picture>();
   picture->request = scene.pictures;
   picture->colours = QImage(900, 700, QImage::Format_RGBA8888);
@@ -111,6 +115,7 @@ void SceneTest::merges_pictures_by_depth() {
   Q_EMIT scene.bench.engine.picture(picture);
   QVERIFY(scene.settle());
   const QImage merged = scene.grabbed("isosurface");
+  QVERIFY(merged.pixelColor(2, 0) != accent);
   const auto is_iso = [&](int x, int y) { return merged.pixelColor(x, y) == QColor(255, 0, 255); };
   int wrong = 0, before = 0, behind = 0;
   for (int y = 203; y < 497; y += 2) {
