@@ -80,7 +80,8 @@ void OrbitCamera::look_along(double side_degrees) {
   double best = kNorthWest;
   double least = 360;
   for (int n = 0; n < 8; ++n) {
-    const double azimuth = side_degrees + 90 * (n / 2) + (n % 2 == 0 ? kFromSide : -kFromSide);
+    const int quarters = n / 2;
+    const double azimuth = side_degrees + 90.0 * quarters + (n % 2 == 0 ? kFromSide : -kFromSide);
     const double off = std::abs(std::remainder(azimuth - kNorthWest, 360));
     if (off >= least) continue;
     least = off;
