@@ -12,7 +12,6 @@ namespace footwall::ui {
 namespace {
 
 using render::Vec3;
-using render::Vec3f;
 
 double velocity_of(const project::Project& project) {
   const auto text = project.setting("velocity");
