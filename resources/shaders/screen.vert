@@ -1,0 +1,8 @@
+#version 450 core
+// One triangle over the whole target.
+out vec2 uv;
+
+void main() {
+  uv = vec2((gl_VertexID & 1) * 2, (gl_VertexID >> 1) * 2);
+  gl_Position = vec4(uv * 2.0 - 1.0, 0.0, 1.0);
+}

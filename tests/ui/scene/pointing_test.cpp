@@ -1,0 +1,171 @@
+#include <QSignalSpy>
+#include <QTest>
+#include <QWheelEvent>
+
+#include "ui/scene/made_scene.h"
+#include "ui/test_class.h"
+
+namespace footwall::ui {
+namespace {
+
+using render::Vec3;
+
+void turn_wheel(QWidget* view, const QPointF& at, int notches) {
+  QWheelEvent event(at, view->mapToGlobal(at), {}, QPoint(0, 120 * notches), Qt::NoButton, Qt::NoModifier,
+                    Qt::NoScrollPhase, false);
+  QCoreApplication::sendEvent(view, &event);
+}
+
+}  // namespace
+
+class PointingTest final : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void finds_faces_pillars_and_nodes();
+  void click_selects_and_hover_highlights();
+  void a_plane_follows_its_frame();
+  void wheel_zooms_at_the_mouse();
+  void small_moves_turn_nothing();
+  void keys_work();
+};
+
+void PointingTest::finds_faces_pillars_and_nodes() {
+  MadeScene scene;
+  QVERIFY(scene.settle());
+  const survey::Geometry& survey = *scene.bench.document.survey();
+  const Fault& fault = scene.bench.document.faults().front();
+  scene.bench.selection.set_active_fault(fault.record.id);
+  int nodes = 0, pillars = 0, faces = 0;
+  for (const survey::Pillar& pillar : fault.pillars) {
+    const auto& a = pillar.nodes[0];
+    const auto& b = pillar.nodes[1];
+    const auto at = scene.view->pixel_of(survey.index_of(a.position));
+    QVERIFY(at.has_value());
+    const SceneView::Under node = scene.view->under(*at);
+    if (node.item == Item{.kind = Item::Kind::kNode, .id = a.id}) ++nodes;
+    const survey::WorldPoint middle{(a.position.x + b.position.x) / 2, (a.position.y + b.position.y) / 2,
+                                    (a.position.z + b.position.z) / 2};
+    const SceneView::Under line = scene.view->under(*scene.view->pixel_of(survey.index_of(middle)));
+    if (line.item.kind == Item::Kind::kPillar && line.item.id == pillar.id) {
+      ++pillars;
+      QCOMPARE(line.segment, 0);
+    }
+  }
+  QVERIFY(nodes > 0);
+  QVERIFY(pillars > 0);
+  // Every pixel that hits a face names one that is there, at a place on it.
+  for (int y = 20; y < 700; y += 17) {
+    for (int x = 20; x < 900; x += 17) {
+      const SceneView::Under under = scene.view->under(QPointF(x, y));
+      if (under.item.kind != Item::Kind::kFace) continue;
+      ++faces;
+      QVERIFY(under.hit);
+      const auto again = scene.view->pixel_of(under.place);
+      QVERIFY(std::hypot(again->x() - x, again->y() - y) < 2);
+    }
+  }
+  QVERIFY(faces > 50);
+}
+
+void PointingTest::click_selects_and_hover_highlights() {
+  MadeScene scene;
+  QVERIFY(scene.settle());
+  std::optional<QPoint> on_face;
+  for (int y = 20; y < 700 && !on_face; y += 7) {
+    for (int x = 20; x < 900 && !on_face; x += 7) {
+      if (scene.view->under(QPointF(x, y)).item.kind == Item::Kind::kFace) on_face = QPoint(x, y);
+    }
+  }
+  QVERIFY(on_face.has_value());
+  const std::uint64_t layers = scene.view->counters().layers;
+  QTest::mouseMove(scene.view.get(), *on_face + QPoint(1, 0));
+  QTest::mouseMove(scene.view.get(), *on_face);
+  QTRY_COMPARE(scene.bench.selection.hovered().kind, Item::Kind::kFace);
+  QVERIFY(scene.bench.display.cursor().has_value());
+  QTRY_VERIFY(scene.settle());
+  QCOMPARE(scene.view->counters().layers, layers);  // hovering draws over the layer
+  scene.grabbed("hovered");
+  QTest::mouseClick(scene.view.get(), Qt::LeftButton, {}, *on_face);
+  QCOMPARE(scene.bench.selection.current().kind, Item::Kind::kFace);
+  QVERIFY(scene.bench.selection.active_fault() != 0);
+  QVERIFY(scene.settle());
+  scene.grabbed("selected");
+  QTest::mouseClick(scene.view.get(), Qt::LeftButton, {}, QPoint(5, 5));
+  QVERIFY(!scene.bench.selection.current());
+}
+
+void PointingTest::a_plane_follows_its_frame() {
+  MadeScene scene;
+  QVERIFY(scene.settle());
+  const auto index = [&] { return scene.bench.display.sections()[0].section.index; };
+  double caught = 1;
+  // A place on the inline plane's upper edge, and where that of a plane twenty lines on is.
+  const auto at = [&](std::int64_t line) {
+    return scene.view->pixel_of({static_cast<double>(line), caught, -0.5})->toPoint();
+  };
+  const std::int64_t before = index();
+  // Where nothing else is in the way.
+  while (caught < 39 && !scene.view->under(at(before)).on_frame) ++caught;
+  QVERIFY(scene.view->under(at(before)).on_frame);
+  QTest::mousePress(scene.view.get(), Qt::LeftButton, {}, at(before));
+  for (int n = 1; n <= 20; ++n) QTest::mouseMove(scene.view.get(), at(before - n));
+  QVERIFY(std::abs(index() - (before - 20)) <= 1);
+  QVERIFY(scene.settle());
+  scene.grabbed("plane_dragged");
+  QTest::mouseRelease(scene.view.get(), Qt::LeftButton, {}, at(before - 20));
+  // Far beyond the survey it stops at its first line.
+  QTest::mousePress(scene.view.get(), Qt::LeftButton, {}, at(index()));
+  for (int n = 0; n <= 10; ++n) QTest::mouseMove(scene.view.get(), at(index()) + (at(0) - at(40)) * n);
+  QTest::mouseRelease(scene.view.get(), Qt::LeftButton, {}, at(0));
+  QCOMPARE(index(), 0);
+}
+
+void PointingTest::wheel_zooms_at_the_mouse() {
+  MadeScene scene;
+  QVERIFY(scene.settle());
+  const QPointF at(520, 360);
+  const SceneView::Under before = scene.view->under(at);
+  QVERIFY(before.hit);
+  for (int n = 0; n < 5; ++n) turn_wheel(scene.view.get(), at, 1);
+  const auto after = scene.view->pixel_of(before.place);
+  QVERIFY(after.has_value());
+  QVERIFY(std::hypot(after->x() - at.x(), after->y() - at.y()) < 1.5);
+}
+
+void PointingTest::small_moves_turn_nothing() {
+  MadeScene scene;
+  QVERIFY(scene.settle());
+  const QString camera = scene.view->camera_text();
+  QTest::mousePress(scene.view.get(), Qt::MiddleButton, {}, QPoint(300, 300));
+  QTest::mouseMove(scene.view.get(), QPoint(302, 301));
+  QCOMPARE(scene.view->camera_text(), camera);
+  QTest::mouseMove(scene.view.get(), QPoint(330, 310));
+  QVERIFY(scene.view->camera_text() != camera);
+  QTest::mouseRelease(scene.view.get(), Qt::MiddleButton, {}, QPoint(330, 310));
+  QVERIFY(scene.view->set_camera_text(camera));
+  QCOMPARE(scene.view->camera_text(), camera);
+  QVERIFY(!scene.view->set_camera_text("45,30"));
+  QVERIFY(!scene.view->set_camera_text("1,2,3;1,2,3"));
+}
+
+void PointingTest::keys_work() {
+  MadeScene scene;
+  QVERIFY(scene.settle());
+  const QImage plain = scene.grabbed("perspective");
+  QTest::keyClick(scene.view.get(), Qt::Key_O);
+  QVERIFY(!scene.bench.display.perspective());
+  QVERIFY(scene.settle());
+  QVERIFY(scene.grabbed("orthographic") != plain);
+  QTest::keyClick(scene.view.get(), Qt::Key_O);
+  QTest::keyClick(scene.view.get(), Qt::Key_E);
+  QVERIFY(scene.bench.display.faces().edges);
+  QVERIFY(scene.settle());
+  QVERIFY(scene.grabbed("edges") != plain);
+}
+
+static const RegisterTest<PointingTest> kRegistered;
+
+}  // namespace footwall::ui
+
+#include "pointing_test.moc"

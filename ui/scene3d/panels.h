@@ -1,0 +1,32 @@
+// Small images that lie flat on the scene: colour bar and north arrow.
+#pragma once
+#include <QFont>
+#include <QImage>
+#include <QString>
+#include <array>
+
+#include "engine/render/colour_map.h"
+#include "ui/model/surfaces.h"
+#include "ui/scene3d/survey_box.h"
+
+namespace footwall::ui {
+
+struct ColourBar {
+  QString title;                        // "variance"
+  QString unit;                         // may be empty
+  Freshness state = Freshness::kFresh;  // the oldest of what is shown
+  const render::ColourMap* colours = nullptr;
+  std::array<double, 2> range{0, 1};
+  bool has_undefined = false;  // adds a swatch "no value"
+  friend bool operator==(const ColourBar&, const ColourBar&) = default;
+};
+
+QImage colour_bar_image(const ColourBar& bar, const SceneColours& colours, const QFont& font, double pixel);
+// degrees: clockwise from upwards in the picture; length 0 to 1, as much of the arrow as is not
+// foreshortened.
+QImage north_arrow_image(double degrees, double length, const SceneColours& colours, const QFont& font,
+                         double pixel);
+// "amplitude^2" -> "amplitude²", "1" -> "".
+QString unit_text(const std::string& unit_rule);
+
+}  // namespace footwall::ui

@@ -1,0 +1,371 @@
+// What changed, and its way to the graphics card.
+#include "ui/scene3d/scene_drawing.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <cmath>
+
+#include "storage/base/error.h"
+#include "storage/base/log.h"
+
+namespace footwall::ui {
+namespace {
+
+using render::Vec3;
+
+double velocity_of(const project::Project& project) {
+  const auto text = project.setting("velocity");
+  bool good = false;
+  const double velocity = text ? QString::fromStdString(*text).toDouble(&good) : 0;
+  return good && velocity > 0 && std::isfinite(velocity) ? velocity : 0;
+}
+
+}  // namespace
+
+SceneDrawing::SceneDrawing(Workbench& workbench) : workbench_(workbench) {
+  survey_changed();
+}
+
+void SceneDrawing::build(Gl& gl) {
+  meshes_.build(gl);
+  planes_.build(gl);
+  marks_.build(gl);
+  picture_.build(gl);
+  background_.build(gl, QStringLiteral("screen.vert"), QStringLiteral("background.frag"));
+  gl.glCreateVertexArrays(1, &background_layout_);
+  gl_ = &gl;
+  for (const Fault& fault : workbench_.document.faults()) meshes_to_upload_.insert(fault.record.id);
+  content_changed();
+}
+
+void SceneDrawing::release() {
+  if (gl_ == nullptr) return;
+  Gl& gl = *gl_;
+  meshes_.release(gl);
+  planes_.release(gl);
+  marks_.release(gl);
+  picture_.release(gl);
+  background_.release(gl);
+  gl.glDeleteVertexArrays(1, &background_layout_);
+  for (auto& [name, texture] : colour_tables_) gl.glDeleteTextures(1, &texture);
+  colour_tables_.clear();
+  for (auto* batch : {&box_, &pillars_, &loose_lines_, &over_lines_, &hover_lines_}) batch->release(gl);
+  for (auto* batch : {&nodes_, &loose_dots_, &hover_dots_}) batch->release(gl);
+  labels_.release(gl);
+  flat_sprites_.release(gl);
+  for (GlTarget* target : {&frame_target_, &front_target_, &back_target_, &fine_target_, &fine_samples_,
+                           &tile_target_, &tile_samples_}) {
+    target->release(gl);
+  }
+  front_valid_ = fine_valid_ = back_.under_way = fine_.under_way = false;
+  coarse_made_.reset();
+  static_marks_old_ = camera_marks_old_ = true;
+  gl_ = nullptr;
+}
+
+void SceneDrawing::set_style(const SceneColours& colours, const QFont& font, double pixel) {
+  colours_ = colours;
+  font_ = font;
+  pixel_ = pixel;
+  texts_.set_style(font, colours.bottom, pixel);
+  static_marks_old_ = true;
+  content_changed();
+}
+
+void SceneDrawing::survey_changed() {
+  const auto& survey = workbench_.document.survey();
+  frame_.reset();
+  const std::optional<render::SceneFrame> former = std::exchange(flat_, std::nullopt);
+  if (survey) {
+    try {
+      const double velocity = velocity_of(workbench_.document.project());
+      flat_.emplace(*survey, 1, velocity);
+      frame_.emplace(*survey, workbench_.display.exaggeration(), velocity);
+      heights_ = workbench_.display.exaggeration();
+      camera.set_corners(frame_->corners());
+    } catch (const Error& error) {
+      log::warn("the scene has no survey to show: " + error.message());
+      frame_.reset();
+      flat_.reset();
+    }
+  }
+  const bool same = former && flat_ && former->geometry() == flat_->geometry() &&
+                    former->corners()[7].z == flat_->corners()[7].z;
+  if (!same) {
+    ++frame_number_;
+    for (const Fault& fault : workbench_.document.faults()) meshes_to_upload_.insert(fault.record.id);
+  }
+  static_marks_old_ = true;
+  camera_moved();
+}
+
+void SceneDrawing::surfaces_changed(const std::set<Id>& faults) {
+  const std::set<Id> loose = loose_faults();
+  bool standing = false;
+  for (const Id fault : faults) {
+    meshes_to_upload_.insert(fault);
+    standing = standing || !loose.contains(fault);
+  }
+  numbers_changed(faults);
+  standing ? content_changed() : loose_changed();
+}
+
+void SceneDrawing::numbers_changed(const std::set<Id>& faults) {
+  const std::set<Id> loose = loose_faults();
+  const bool standing = std::ranges::any_of(faults, [&](Id fault) { return !loose.contains(fault); });
+  numbers_to_upload_.insert(faults.begin(), faults.end());
+  range_old_ = true;
+  standing ? content_changed() : loose_changed();
+}
+
+void SceneDrawing::pillars_changed(const std::set<Id>& faults) {
+  const std::set<Id> loose = loose_faults();
+  loose_marks_old_ = true;
+  for (const Id fault : faults) {
+    if (workbench_.document.fault(fault) == nullptr && meshes_.has(fault)) meshes_to_upload_.insert(fault);
+  }
+  const bool standing = std::ranges::any_of(faults, [&](Id fault) { return !loose.contains(fault); });
+  if (!standing) return loose_changed();
+  static_marks_old_ = true;
+  content_changed();
+}
+
+void SceneDrawing::selection_changed() {
+  const std::set<Id> loose = loose_faults();
+  std::set<Id> standing;
+  for (const Id pillar : workbench_.selection.pillars()) {
+    const Fault* fault = workbench_.document.fault_of_pillar(pillar);
+    if (fault != nullptr && !loose.contains(fault->record.id)) standing.insert(pillar);
+  }
+  if (std::exchange(standing_picks_, standing) == standing) return loose_changed();
+  static_marks_old_ = true;
+  content_changed();
+}
+
+void SceneDrawing::content_changed() {
+  front_old_ = true;
+  loose_changed();
+}
+
+void SceneDrawing::loose_changed() {
+  fine_valid_ = fine_wanted_ = false;
+  fine_.under_way = false;
+  loose_marks_old_ = flat_old_ = true;
+}
+
+void SceneDrawing::camera_moved() {
+  front_valid_ = false;
+  back_.under_way = false;
+  camera_marks_old_ = true;
+  content_changed();
+}
+
+void SceneDrawing::set_moving(bool moving) {
+  moving_ = moving;
+}
+
+void SceneDrawing::want_fine() {
+  fine_wanted_ = true;
+}
+
+void SceneDrawing::put_samples(Id plane, std::shared_ptr<const SectionSamples> samples) {
+  samples_to_upload_[plane] = std::move(samples);
+  plane == loose_plane_ ? loose_changed() : content_changed();
+}
+
+void SceneDrawing::put_picture(std::shared_ptr<const Picture> picture,
+                               const render::Matrix4& view_projection) {
+  picture_to_upload_.emplace(std::move(picture), view_projection);
+  content_changed();
+}
+
+void SceneDrawing::clear_picture() {
+  picture_to_upload_.reset();
+  if (!picture_.is_shown()) return;
+  picture_.clear();
+  content_changed();
+}
+
+void SceneDrawing::set_loose_plane(Id plane) {
+  if (plane == loose_plane_) return;
+  loose_plane_ = plane;
+  static_marks_old_ = true;
+  content_changed();
+}
+
+void SceneDrawing::set_hot_plane(Id plane) {
+  if (plane == hot_plane_) return;
+  hot_plane_ = plane;
+  loose_marks_old_ = flat_old_ = true;
+}
+
+std::set<Id> SceneDrawing::shown_faults() const {
+  std::set<Id> shown;
+  for (const Fault& fault : workbench_.document.faults()) {
+    const Id id = fault.record.id;
+    if (workbench_.display.is_visible({.kind = Item::Kind::kFault, .id = id})) shown.insert(id);
+  }
+  return shown;
+}
+
+std::set<Id> SceneDrawing::loose_faults() const {
+  std::set<Id> loose;
+  const Id active = workbench_.selection.active_fault();
+  if (active != 0) loose.insert(active);
+  for (const Fault& fault : workbench_.document.faults()) {
+    if (workbench_.document.is_provisional(fault.record.id)) loose.insert(fault.record.id);
+  }
+  return loose;
+}
+
+const FaultGeometry* SceneDrawing::geometry(Id fault) const {
+  return meshes_.geometry(fault);
+}
+
+Vec3 SceneDrawing::flat_of(const survey::WorldPoint& p) const {
+  return flat_ ? flat_->scene_of(p) : Vec3{p.x, p.y, -p.z};
+}
+
+std::size_t SceneDrawing::spend(std::size_t triangles) {
+  work_ += triangles;
+  counters.triangles += triangles;
+  counters.frame_triangles += triangles;
+  return triangles;
+}
+
+bool SceneDrawing::upload_one() {
+  if (gl_ == nullptr) return false;
+  if (!meshes_to_upload_.empty()) {
+    const Id fault = *meshes_to_upload_.begin();
+    upload(fault, loose_faults().contains(fault));
+    return true;
+  }
+  if (!numbers_to_upload_.empty()) {
+    upload_numbers(*numbers_to_upload_.begin());
+    return true;
+  }
+  if (!samples_to_upload_.empty()) {
+    const auto first = samples_to_upload_.begin();
+    planes_.put(*gl_, first->first, first->second);
+    work_ += kWorkPerSlice / 4;
+    samples_to_upload_.erase(first);
+    return true;
+  }
+  if (picture_to_upload_) {
+    picture_.put(*gl_, *picture_to_upload_->first, picture_to_upload_->second);
+    picture_to_upload_.reset();
+    return true;
+  }
+  return false;
+}
+
+void SceneDrawing::upload(Id fault, bool loose) {
+  meshes_to_upload_.erase(fault);
+  loose_marks_old_ = range_old_ = true;
+  const auto surface = source.surface(fault);
+  if (!surface || surface->faces.empty() || !flat_ || workbench_.document.fault(fault) == nullptr) {
+    meshes_.remove(*gl_, fault);
+    return;
+  }
+  const FaultGeometry* known = meshes_.geometry(fault);
+  if (known != nullptr && known->shared_surface() == surface && uploaded_in_[fault] == frame_number_) return;
+  uploaded_in_[fault] = frame_number_;
+  auto geometry = std::make_shared<FaultGeometry>(
+      surface, [this](const survey::WorldPoint& p) { return flat_->scene_of(p); });
+  work_ += geometry->face_count();
+  meshes_.put(*gl_, std::move(geometry));
+  if (!loose) coarse_made_.reset();
+  ++counters.uploads;
+  upload_numbers(fault);
+}
+
+void SceneDrawing::upload_numbers(Id fault) {
+  numbers_to_upload_.erase(fault);
+  range_old_ = true;
+  const auto numbers = source.numbers(fault, workbench_.display.faces().statistic);
+  if (!numbers) return;
+  meshes_.put_numbers(*gl_, fault, numbers->values, numbers->stale, numbers->hatched);
+  work_ += meshes_.face_count(fault) / 4;
+}
+
+void SceneDrawing::refresh_range() {
+  if (!std::exchange(range_old_, false)) return;
+  const FaceLook& look = workbench_.display.faces();
+  if (look.low && look.high) {
+    range_ = {*look.low, *look.high};
+  } else {
+    range_ = source.range(shown_faults(), look.statistic);
+    if (range_ && look.low) range_->first = *look.low;
+    if (range_ && look.high) range_->second = *look.high;
+  }
+  bar_ = colour_bar();
+  flat_old_ = true;
+}
+
+GLuint SceneDrawing::colours_named(const QString& name) const {
+  const auto known = colour_tables_.find(name);
+  if (known != colour_tables_.end()) return known->second;
+  const render::ColourMap* map = &render::ColourMap::named("viridis");
+  for (const render::ColourMap& one : render::ColourMap::all()) {
+    if (QString::fromUtf8(one.name().data(), static_cast<qsizetype>(one.name().size())) == name) map = &one;
+  }
+  GLuint texture = 0;
+  gl_->glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+  gl_->glTextureStorage2D(texture, 1, GL_RGBA8, 256, 1);
+  gl_->glTextureSubImage2D(texture, 0, 0, 0, 256, 1, GL_RGBA, GL_UNSIGNED_BYTE, map->table().data());
+  gl_->glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl_->glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  gl_->glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  return colour_tables_[name] = texture;
+}
+
+FaceColouring SceneDrawing::colouring_of(Id fault) const {
+  const FaceLook& look = workbench_.display.faces();
+  const Fault* record = workbench_.document.fault(fault);
+  const QColor own(record == nullptr ? QString() : QString::fromStdString(record->record.colour));
+  FaceColouring how;
+  how.edges = look.edges;
+  if (own.isValid()) how.plain_colour = {own.redF(), own.greenF(), own.blueF()};
+  const Freshness state = source.freshness(fault, look.statistic);
+  how.plain = look.colours != FaceColours::kStatistic || state == Freshness::kPlain || !range_;
+  how.hatched = state == Freshness::kStale;
+  if (how.plain) return how;
+  how.range = {static_cast<float>(range_->first), static_cast<float>(range_->second)};
+  const std::string_view name = bar_ ? bar_->colours->name() : "viridis";
+  how.colours = colours_named(QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())));
+  return how;
+}
+
+std::optional<ColourBar> SceneDrawing::colour_bar() const {
+  const FaceLook& look = workbench_.display.faces();
+  if (look.colours != FaceColours::kStatistic) return {};
+  ColourBar bar;
+  bar.title = look.statistic == QStringLiteral("variance")
+                  ? QCoreApplication::translate("SceneView", "amplitude variance")
+                  : QString(look.statistic).replace(u'_', u' ');
+  QString map = look.colour_map;
+  for (const project::StatisticRecord& statistic : source.statistics()) {
+    if (QString::fromStdString(statistic.name) != look.statistic) continue;
+    bar.unit = unit_text(statistic.unit_rule);
+    if (map.isEmpty()) map = QString::fromStdString(statistic.colour_map);
+  }
+  bar.colours = &render::ColourMap::named("viridis");
+  for (const render::ColourMap& one : render::ColourMap::all()) {
+    if (QString::fromUtf8(one.name().data(), static_cast<qsizetype>(one.name().size())) == map)
+      bar.colours = &one;
+  }
+  // The bar's state is that of the colours that are least worth.
+  bool any = false;
+  bar.state = Freshness::kFresh;
+  for (const Id fault : shown_faults()) {
+    if (!meshes_.has(fault)) continue;
+    const Freshness state = source.freshness(fault, look.statistic);
+    any = any || state != Freshness::kPlain;
+    if (state != Freshness::kPlain) bar.state = std::max(bar.state, state);
+  }
+  if (!any || !range_) return {};
+  bar.range = {range_->first, range_->second};
+  return bar;
+}
+
+}  // namespace footwall::ui

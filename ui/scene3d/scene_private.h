@@ -1,0 +1,70 @@
+// What a SceneView keeps: what is drawn (scene_drawing.h) and what the mouse is doing.
+#pragma once
+#include <QElapsedTimer>
+#include <QTimer>
+
+#include "ui/scene3d/scene_drawing.h"
+
+namespace footwall::ui {
+
+struct SceneView::Private {
+  Private(SceneView& owner, Workbench& workbench_)
+      : view(owner), workbench(workbench_), drawing(workbench_) {}
+
+  enum class Mouse { kNone, kOrbit, kPan, kPlane, kPicking, kPressed };
+
+  SceneView& view;
+  Workbench& workbench;
+  SceneDrawing drawing;
+  Gl gl;
+  QString problem;
+  QTimer work_timer;  // slices of work while there is any
+  QTimer rest_timer;  // the camera stands still
+  QTimer fine_timer;  // nothing has changed for a while
+  bool was_settled = true;
+  bool fitted = false;
+  bool isosurfaces_old = true;
+
+  // One asker for each plane: the reader keeps the newest request of each.
+  std::map<Id, std::unique_ptr<QObject>> askers;
+  std::map<Id, std::pair<Id, Section>> asked;  // volume and section
+  std::map<std::uint64_t, render::Matrix4> pictures_asked;
+  std::uint64_t last_picture = 0;
+  int passes = 0;
+
+  Mouse mouse = Mouse::kNone;
+  QPointF pressed_at, last_at;
+  bool travelled = false;
+  Id plane = 0;                  // being dragged
+  std::int64_t plane_index = 0;  // when the drag began
+  render::Vec3 plane_grip, plane_step;
+  bool space_held = false;
+
+  void connect_models();
+  void take_style();
+  void survey_changed();
+  void sections_changed();
+  void ask_for_samples();
+  void ask_for_picture();
+  void stop_waiting();
+  void picture_came(const std::shared_ptr<const Picture>& picture);
+  void camera_moved();
+  void changed();  // something is to be drawn
+  void do_work();
+  void forget_gl();
+  QSizeF size() const { return QSizeF(view.size()); }
+
+  // Pointing.
+  bool may_be_near(Id fault, const QPointF& pixel, const render::Camera& camera) const;
+  std::optional<Item> node_or_pillar_at(const QPointF& pixel, double nearest, int* segment) const;
+  Id frame_at(const QPointF& pixel) const;
+  Pointer pointer_of(const Under& under, const QPointF& pixel, Qt::MouseButton button,
+                     Qt::KeyboardModifiers modifiers, ulong time) const;
+  void hover(const QPointF& pixel, const QMouseEvent& event);
+  void begin_plane_drag(Id plane, const QPointF& pixel);
+  void drag_plane(const QPointF& pixel);
+  double along_step(const QPointF& pixel) const;
+  void show_pointer();
+};
+
+}  // namespace footwall::ui
