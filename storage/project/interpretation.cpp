@@ -1,7 +1,9 @@
 #include "storage/project/interpretation.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "storage/base/error.h"
 #include "storage/base/text.h"
@@ -236,6 +238,49 @@ void Interpretation::move_pillar(std::int64_t pillar, const survey::WorldPoint& 
     positions.push_back({node.position.x + by.x, node.position.y + by.y, node.position.z + by.z});
   }
   set_nodes(pillar, positions);
+}
+
+void Interpretation::assign_pillars(std::span<const std::int64_t> pillars, std::int64_t fault) {
+  refuse_pillars_on_surface(state_, state_.editable(fault));
+  std::set<std::int64_t> moved;
+  for (const std::int64_t pillar : pillars) {
+    const std::int64_t from = state_.faults.fault_of_pillar(pillar);
+    state_.editable(from);
+    if (from != fault) moved.insert(pillar);
+  }
+  // 1. Named interpolated pillars whose parents stay are the interpreter's own now.
+  for (const std::int64_t pillar : moved) {
+    survey::Pillar row = state_.faults.pillar(pillar);
+    if (!moved.contains(row.parent_a) || !moved.contains(row.parent_b)) cut_link(state_, row);
+  }
+  // 2. Children go with both parents, or end.
+  std::set<std::int64_t> children;
+  for (const std::int64_t pillar : moved) {
+    for (const std::int64_t child : state_.faults.children(pillar)) children.insert(child);
+  }
+  for (const std::int64_t child : children) {
+    const survey::Pillar row = state_.faults.pillar(child);
+    if (moved.contains(row.parent_a) && moved.contains(row.parent_b)) {
+      moved.insert(child);
+    } else {
+      state_.reshaped(state_.faults.fault_of_pillar(child));
+      state_.faults.remove_pillar(child);
+      state_.removed(child);
+    }
+  }
+  // 3. The rows.
+  for (const std::int64_t pillar : moved) {
+    state_.reshaped(state_.faults.fault_of_pillar(pillar));
+    state_.faults.assign(pillar, fault);
+  }
+  if (!moved.empty()) state_.reshaped(fault);
+}
+
+void Interpretation::reverse_pillar(std::int64_t pillar) {
+  survey::Pillar changed = begin_change(state_, pillar);
+  std::ranges::reverse(changed.nodes);
+  state_.faults.set_nodes(pillar, changed.nodes);
+  end_change(state_, pillar);
 }
 
 void Interpretation::set_nodes(std::int64_t pillar, std::span<const survey::WorldPoint> nodes) {

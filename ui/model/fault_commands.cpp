@@ -1,5 +1,298 @@
 #include "ui/model/fault_commands.h"
 
+#include <QCoreApplication>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <vector>
+
 namespace footwall::ui {
-bool is_unassigned(const Fault& fault) { return fault.record.name == kUnassigned; }
+namespace {
+
+using survey::WorldPoint;
+
+// Okabe and Ito's set and three more, in an order in which neighbours differ in lightness as well as hue.
+constexpr std::array<const char*, 10> kColours{"#e06c6c", "#4aa3df", "#e0b15c", "#2e8b57", "#c9a3e8",
+                                               "#8c5a2b", "#56d0c0", "#d55e00", "#b0c4de", "#cc79a7"};
+
+QString tr(const char* text) {
+  return QCoreApplication::translate("footwall::ui", text);
+}
+
+QString name_of(const Document& document, Id fault) {
+  const Fault* found = document.fault(fault);
+  return found == nullptr ? QString() : QString::fromStdString(found->record.name);
+}
+
+// "Delete pillar", or "Delete 3 pillars".
+QString counted(const char* one, const char* several, std::size_t count) {
+  return count == 1 ? tr(one) : tr(several).arg(count);
+}
+
+std::vector<WorldPoint> positions_of(const survey::Pillar& pillar) {
+  std::vector<WorldPoint> positions;
+  for (const survey::PillarNode& node : pillar.nodes) positions.push_back(node.position);
+  return positions;
+}
+
+WorldPoint between(const WorldPoint& a, const WorldPoint& b, double part) {
+  return {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), a.z + part * (b.z - a.z)};
+}
+
+double distance(const WorldPoint& a, const WorldPoint& b) {
+  return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+std::vector<WorldPoint> smoothed(const std::vector<WorldPoint>& nodes) {
+  std::vector<WorldPoint> result = nodes;
+  for (std::size_t n = 1; n + 1 < nodes.size(); ++n) {
+    result[n] = between(nodes[n], between(nodes[n - 1], nodes[n + 1], 0.5), 1.0 / 3);
+  }
+  return result;
+}
+
+std::vector<WorldPoint> resampled(const std::vector<WorldPoint>& nodes, int count) {
+  std::vector<double> along{0};
+  for (std::size_t n = 1; n < nodes.size(); ++n) along.push_back(along.back() + distance(nodes[n - 1], nodes[n]));
+  std::vector<WorldPoint> result;
+  std::size_t segment = 0;
+  for (int n = 0; n < count; ++n) {
+    const double wanted = along.back() * n / (count - 1);
+    while (segment + 2 < nodes.size() && along[segment + 1] < wanted) ++segment;
+    const double length = along[segment + 1] - along[segment];
+    result.push_back(between(nodes[segment], nodes[segment + 1], length > 0 ? (wanted - along[segment]) / length : 0));
+  }
+  result.front() = nodes.front();
+  result.back() = nodes.back();
+  return result;
+}
+
+// Each pillar's nodes put through `change`, as one edit.
+bool reshape(Document& document, const QString& name, const std::set<Id>& pillars,
+             const std::function<std::vector<WorldPoint>(const std::vector<WorldPoint>&)>& change) {
+  return document.edit(name, [&](project::Interpretation& now) {
+    for (const Id pillar : pillars) {
+      const std::vector<WorldPoint> before = positions_of(now.pillar(pillar));
+      const std::vector<WorldPoint> after = change(before);
+      if (after != before) now.set_nodes(pillar, after);
+    }
+  });
+}
+
+// What a transform moves: nodes by pillar, each node once.
+std::map<Id, std::set<Id>> nodes_of(const Document& document, const std::set<Id>& faults, const std::set<Id>& pillars,
+                                    const std::set<Id>& nodes) {
+  std::map<Id, std::set<Id>> chosen;
+  for (const Fault& fault : document.faults()) {
+    for (const survey::Pillar& pillar : fault.pillars) {
+      const bool whole = faults.contains(fault.record.id) || pillars.contains(pillar.id);
+      // An interpolated pillar follows its parents; moved with its fault it must not become the interpreter's own.
+      if (faults.contains(fault.record.id) && !pillars.contains(pillar.id) &&
+          pillar.kind == survey::PillarKind::kInterpolated) {
+        continue;
+      }
+      for (const survey::PillarNode& node : pillar.nodes) {
+        if (whole || nodes.contains(node.id)) chosen[pillar.id].insert(node.id);
+      }
+    }
+  }
+  return chosen;
+}
+
+}  // namespace
+
+bool is_unassigned(const Fault& fault) {
+  return fault.record.name == kUnassigned;
+}
+
+QString next_fault_name(const Document& document) {
+  for (int n = 1;; ++n) {
+    const QString name = QStringLiteral("F%1").arg(n);
+    const bool taken = std::ranges::any_of(
+        document.faults(), [&](const Fault& fault) { return fault.record.name == name.toStdString(); });
+    if (!taken) return name;
+  }
+}
+
+QString next_fault_colour(const Document& document) {
+  std::map<std::string, int> uses;
+  for (const Fault& fault : document.faults()) ++uses[fault.record.colour];
+  const auto least = std::ranges::min_element(
+      kColours, {}, [&](const char* colour) { return uses.contains(colour) ? uses[colour] : 0; });
+  return QString::fromLatin1(*least);
+}
+
+Id new_fault(Document& document) {
+  const QString name = next_fault_name(document);
+  const QString colour = next_fault_colour(document);
+  Id made = 0;
+  document.edit(tr("New fault %1").arg(name), [&](project::Interpretation& now) {
+    made = now.add_fault(name.toStdString());
+    now.set_fault_property(made, "colour", colour.toStdString());
+  });
+  return document.fault(made) == nullptr ? 0 : made;
+}
+
+bool rename_fault(Document& document, Id fault, const QString& name) {
+  return document.edit(tr("Rename %1 to %2").arg(name_of(document, fault), name),
+                       [&](project::Interpretation& now) { now.rename_fault(fault, name.trimmed().toStdString()); });
+}
+
+bool set_fault_colour(Document& document, const std::set<Id>& faults, const QString& colour) {
+  return document.edit(counted("Colour of a fault", "Colour of %1 faults", faults.size()),
+                       [&](project::Interpretation& now) {
+                         for (const Id fault : faults) now.set_fault_property(fault, "colour", colour.toStdString());
+                       });
+}
+
+bool lock_faults(Document& document, const std::set<Id>& faults, bool locked) {
+  const QString name = locked ? counted("Lock fault", "Lock %1 faults", faults.size())
+                              : counted("Unlock fault", "Unlock %1 faults", faults.size());
+  return document.edit(name, [&](project::Interpretation& now) {
+    for (const Id fault : faults) now.set_fault_property(fault, "locked", locked ? "true" : "false");
+  });
+}
+
+bool delete_items(Document& document, const std::set<Id>& faults, const std::set<Id>& pillars,
+                  const std::set<Id>& nodes) {
+  if (faults.empty() && pillars.empty() && nodes.empty()) return false;
+  const QString name = !faults.empty()    ? counted("Delete fault", "Delete %1 faults", faults.size())
+                       : !pillars.empty() ? counted("Delete pillar", "Delete %1 pillars", pillars.size())
+                                          : counted("Delete node", "Delete %1 nodes", nodes.size());
+  return document.edit(name, [&](project::Interpretation& now) {
+    // Nodes first, then pillars, then faults: what is chosen twice is there when its turn comes. A pillar goes with its
+    // last node, its interpolated children with it.
+    std::map<Id, std::size_t> left;
+    std::set<Id> emptied;
+    for (const Id node : nodes) {
+      const Id pillar = now.pillar_of_node(node);
+      if (pillars.contains(pillar) || faults.contains(now.fault_of_pillar(pillar))) continue;
+      if (!left.contains(pillar)) left[pillar] = now.pillar(pillar).nodes.size();
+      if (--left[pillar] == 0) {
+        emptied.insert(pillar);
+      } else {
+        now.delete_node(node);
+      }
+    }
+    emptied.insert(pillars.begin(), pillars.end());
+    std::set<Id> gone;
+    for (const Id pillar : emptied) {
+      if (gone.contains(pillar) || faults.contains(now.fault_of_pillar(pillar))) continue;
+      for (const survey::Pillar& other : now.pillars(now.fault_of_pillar(pillar))) {
+        if (other.parent_a == pillar || other.parent_b == pillar) gone.insert(other.id);
+      }
+      now.delete_pillar(pillar);
+    }
+    for (const Id fault : faults) now.delete_fault(fault);
+  });
+}
+
+bool merge_faults(Document& document, Id into, const std::set<Id>& others) {
+  return document.edit(tr("Merge into %1").arg(name_of(document, into)), [&](project::Interpretation& now) {
+    for (const Id other : others) {
+      if (other == into) continue;
+      std::vector<Id> pillars;
+      for (const survey::Pillar& pillar : now.pillars(other)) pillars.push_back(pillar.id);
+      now.assign_pillars(pillars, into);
+      now.delete_fault(other);
+    }
+  });
+}
+
+Id split_fault(Document& document, const std::set<Id>& pillars) {
+  if (pillars.empty()) return 0;
+  const QString name = next_fault_name(document);
+  const QString colour = next_fault_colour(document);
+  Id made = 0;
+  document.edit(tr("Split off %1").arg(name), [&](project::Interpretation& now) {
+    made = now.add_fault(name.toStdString());
+    now.set_fault_property(made, "colour", colour.toStdString());
+    now.assign_pillars(std::vector<Id>(pillars.begin(), pillars.end()), made);
+  });
+  return document.fault(made) == nullptr ? 0 : made;
+}
+
+bool assign_pillars(Document& document, const std::set<Id>& pillars, Id fault) {
+  const QString name = pillars.size() == 1
+                           ? tr("Move pillar to %1").arg(name_of(document, fault))
+                           : tr("Move %1 pillars to %2").arg(pillars.size()).arg(name_of(document, fault));
+  return document.edit(name, [&](project::Interpretation& now) {
+    now.assign_pillars(std::vector<Id>(pillars.begin(), pillars.end()), fault);
+  });
+}
+
+bool reverse_pillars(Document& document, const std::set<Id>& pillars) {
+  return document.edit(counted("Reverse pillar", "Reverse %1 pillars", pillars.size()),
+                       [&](project::Interpretation& now) {
+                         for (const Id pillar : pillars) now.reverse_pillar(pillar);
+                       });
+}
+
+bool smooth_pillars(Document& document, const std::set<Id>& pillars) {
+  return reshape(document, counted("Smooth pillar", "Smooth %1 pillars", pillars.size()), pillars, smoothed);
+}
+
+bool resample_pillars(Document& document, const std::set<Id>& pillars, int nodes) {
+  if (nodes < 2) return false;
+  return reshape(document, counted("Resample pillar", "Resample %1 pillars", pillars.size()), pillars,
+                 [nodes](const std::vector<WorldPoint>& before) {
+                   return before.size() < 2 ? before : resampled(before, nodes);
+                 });
+}
+
+bool accept_pillars(Document& document, const std::set<Id>& pillars) {
+  return document.edit(counted("Accept pillar", "Accept %1 pillars", pillars.size()),
+                       [&](project::Interpretation& now) {
+                         for (const Id pillar : pillars) {
+                           if (now.pillar(pillar).kind == survey::PillarKind::kInterpolated) now.accept_pillar(pillar);
+                         }
+                       });
+}
+
+bool transform_items(Document& document, const std::set<Id>& faults, const std::set<Id>& pillars,
+                     const std::set<Id>& nodes, const Transform& transform) {
+  const std::map<Id, std::set<Id>> chosen = nodes_of(document, faults, pillars, nodes);
+  if (chosen.empty()) return false;
+  WorldPoint centre;
+  if (transform.centre) {
+    centre = *transform.centre;
+  } else {
+    double count = 0;
+    for (const auto& [pillar, moved] : chosen) {
+      for (const survey::PillarNode& node : document.pillar(pillar)->nodes) {
+        if (!moved.contains(node.id)) continue;
+        ++count;
+        centre = between(centre, node.position, 1 / count);
+      }
+    }
+  }
+  // Clockwise seen from above: from north (y) towards east (x).
+  const double angle = transform.rotate_degrees * std::numbers::pi / 180;
+  const double cosine = std::cos(angle);
+  const double sine = std::sin(angle);
+  const auto moved_point = [&](const WorldPoint& p) {
+    const double x = p.x - centre.x;
+    const double y = p.y - centre.y;
+    const double z = p.z - centre.z;
+    return WorldPoint{centre.x + transform.scale[0] * (cosine * x + sine * y) + transform.move.x,
+                      centre.y + transform.scale[1] * (cosine * y - sine * x) + transform.move.y,
+                      centre.z + transform.scale[2] * z + transform.move.z};
+  };
+  const bool only_moves = transform.rotate_degrees == 0 && transform.scale == std::array<double, 3>{1, 1, 1};
+  return document.edit(only_moves ? tr("Move selection") : tr("Transform selection"),
+                       [&](project::Interpretation& now) {
+                         for (const auto& [pillar, ids] : chosen) {
+                           for (const survey::PillarNode& node : now.pillar(pillar).nodes) {
+                             if (!ids.contains(node.id)) continue;
+                             const WorldPoint& p = node.position;
+                             now.move_node(node.id, only_moves ? WorldPoint{p.x + transform.move.x,
+                                                                            p.y + transform.move.y,
+                                                                            p.z + transform.move.z}
+                                                               : moved_point(p));
+                           }
+                         }
+                       });
+}
+
 }  // namespace footwall::ui

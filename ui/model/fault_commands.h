@@ -37,10 +37,10 @@ bool accept_pillars(Document& document, const std::set<Id>& pillars);
 // Turned about the vertical through `centre` by degrees clockwise seen from above, scaled about it, then moved; world
 // units. Whole pillars where faults or pillars are given, single nodes where nodes are.
 struct Transform {
-  survey::WorldPoint move;
+  survey::WorldPoint move{};
   double rotate_degrees = 0;
   std::array<double, 3> scale{1, 1, 1};
-  std::optional<survey::WorldPoint> centre;  // unset: the middle of what is moved
+  std::optional<survey::WorldPoint> centre{};  // unset: the middle of what is moved
 };
 bool transform_items(Document& document, const std::set<Id>& faults, const std::set<Id>& pillars,
                      const std::set<Id>& nodes, const Transform& transform);

@@ -198,6 +198,10 @@ void FaultTable::update(const survey::Pillar& p) {
       .run();
 }
 
+void FaultTable::assign(std::int64_t pillar, std::int64_t fault) {
+  Query(database_, "UPDATE pillar SET fault = ? WHERE id = ?", fault, pillar).run();
+}
+
 void FaultTable::remove_pillar(std::int64_t pillar) {
   Query(database_, "DELETE FROM pillar_node WHERE pillar = ?", pillar).run();
   Query(database_, "DELETE FROM pillar WHERE id = ?", pillar).run();

@@ -33,6 +33,7 @@ class FaultTable {
   void insert(std::int64_t fault, const survey::Pillar& pillar);
   // Kind, parents and parameter; not the nodes.
   void update(const survey::Pillar& pillar);
+  void assign(std::int64_t pillar, std::int64_t fault);
   void remove_pillar(std::int64_t pillar);
   Bytes former(std::int64_t pillar) const;
   void set_former(std::int64_t pillar, const Bytes& positions);

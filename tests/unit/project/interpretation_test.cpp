@@ -60,6 +60,48 @@ TEST_F(InterpretationTest, PillarsComeBackAsTheyWerePicked) {
   EXPECT_EQ(stored(a_.id).nodes[0].position, picked);
 }
 
+TEST_F(InterpretationTest, PillarsGoToAnotherFaultWithTheirChildren) {
+  std::int64_t other = 0;
+  project_->edit("split", [&](Interpretation& it) {
+    other = it.add_fault("F2");
+    it.assign_pillars(std::vector<std::int64_t>{a_.id, b_.id}, other);
+  });
+  EXPECT_TRUE(project_->pillars(fault_).empty());
+  const auto moved = project_->pillars(other);
+  ASSERT_EQ(moved.size(), 3U);
+  EXPECT_EQ(moved[0].id, a_.id);
+  EXPECT_EQ(moved[0].nodes[1].id, a_.nodes[1].id);
+  EXPECT_EQ(moved[2].kind, PillarKind::kInterpolated);
+  EXPECT_EQ(moved[2].parent_a, a_.id);
+  project_->undo();
+  EXPECT_EQ(project_->pillars(fault_).size(), 3U);
+}
+
+TEST_F(InterpretationTest, AChildStaysWithNeitherParentAlone) {
+  std::int64_t other = 0;
+  const auto result = project_->edit("split", [&](Interpretation& it) {
+    other = it.add_fault("F2");
+    it.assign_pillars(std::vector<std::int64_t>{a_.id}, other);
+  });
+  EXPECT_EQ(result.removed, std::vector<std::int64_t>{child_.id});
+  EXPECT_EQ(project_->pillars(fault_).size(), 1U);
+  project_->undo();
+  project_->edit("split", [&](Interpretation& it) {
+    other = it.add_fault("F2");
+    it.assign_pillars(std::vector<std::int64_t>{child_.id}, other);
+  });
+  ASSERT_EQ(project_->pillars(other).size(), 1U);
+  EXPECT_EQ(project_->pillars(other)[0].kind, PillarKind::kInterpreted);
+  EXPECT_EQ(project_->pillars(other)[0].parent_a, 0);
+}
+
+TEST_F(InterpretationTest, AReversedPillarKeepsItsNodes) {
+  project_->edit("reverse", [&](Interpretation& it) { it.reverse_pillar(a_.id); });
+  EXPECT_EQ(stored(a_.id).nodes[0].id, a_.nodes[1].id);
+  EXPECT_EQ(stored(a_.id).nodes[0].position, a_.nodes[1].position);
+  EXPECT_EQ(stored(a_.id).nodes[1].id, a_.nodes[0].id);
+}
+
 TEST_F(InterpretationTest, NodesStandWhereTheyWereInserted) {
   std::int64_t front = 0, middle = 0, back = 0;
   project_->edit("insert", [&](Interpretation& it) {

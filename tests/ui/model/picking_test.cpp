@@ -1,0 +1,282 @@
+#include "ui/model/picking.h"
+
+#include <QSignalSpy>
+#include <QTest>
+#include <memory>
+
+#include "ui/sample_project.h"
+#include "ui/test_class.h"
+
+namespace footwall::ui {
+
+using namespace std::chrono_literals;
+
+// One window's models over a sample project without faults, and a mouse over its inline 10.
+struct Desk {
+  explicit Desk(bool with_faults = false) : document(sample.open()) {
+    if (!with_faults) {
+      document.edit("empty", [](project::Interpretation& now) {
+        for (const auto& fault : now.faults()) now.delete_fault(fault.id);
+      });
+    }
+    picking.set_tool(Tool::kPick);
+  }
+  Pointer at(double crossline, double sample_index, const Item& under = {}, Qt::KeyboardModifiers modifiers = {}) {
+    Pointer p;
+    p.section.index = 10;
+    p.place = {10, crossline, sample_index};
+    p.x = crossline * 10;
+    p.y = sample_index * 10;
+    p.on_section = true;
+    p.under = under;
+    p.modifiers = modifiers;
+    p.button = Qt::LeftButton;
+    p.time = clock += 10ms;
+    return p;
+  }
+  void click(double crossline, double sample_index, const Item& under = {}, Qt::KeyboardModifiers modifiers = {}) {
+    const Pointer p = at(crossline, sample_index, under, modifiers);
+    picking.move(p);
+    QVERIFY(picking.press(p));
+    QVERIFY(picking.release(p));
+  }
+  Item node(int pillar, int number) {
+    return {.kind = Item::Kind::kNode,
+            .id = document.faults()[0].pillars[static_cast<std::size_t>(pillar)].nodes[static_cast<std::size_t>(number)].id};
+  }
+  survey::IndexPoint place(int pillar, int number) {
+    return document.survey()->index_of(
+        document.faults()[0].pillars[static_cast<std::size_t>(pillar)].nodes[static_cast<std::size_t>(number)].position);
+  }
+  std::size_t steps() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(document.history(), [](const auto& step) { return !step.undone; }));
+  }
+
+  SampleProject sample;
+  Document document;
+  Selection selection{document};
+  Display display{document};
+  Picking picking{document, selection, display};
+  std::chrono::milliseconds clock{0};
+};
+
+class PickingTest final : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void clicks_make_a_pillar_and_a_double_click_ends_it();
+  void a_click_inserts_where_the_line_gets_least_longer();
+  void shift_starts_another_pillar();
+  void control_deletes_a_node();
+  void a_drag_moves_a_node_as_one_edit();
+  void escape_puts_everything_back();
+  void a_drag_on_empty_ground_draws_a_pillar();
+  void backquote_copies_a_pillar();
+  void another_section_starts_another_pillar();
+  void a_locked_fault_and_a_reader_change_nothing();
+  void undo_while_the_button_is_down_is_survived();
+  void the_hint_says_what_the_click_does();
+};
+
+void PickingTest::clicks_make_a_pillar_and_a_double_click_ends_it() {
+  Desk desk;
+  QSignalSpy ended(&desk.picking, &Picking::pillar_ended);
+  desk.click(5, 3);
+  desk.click(6, 20);
+  desk.click(7, 40);
+  const Pointer last = desk.at(7, 40);
+  QVERIFY(desk.picking.double_click(last));
+  QCOMPARE(ended.size(), 1);
+  QCOMPARE(desk.document.faults().size(), std::size_t{1});
+  QCOMPARE(desk.document.faults()[0].record.name, std::string("unassigned"));
+  QCOMPARE(desk.document.faults()[0].pillars.size(), std::size_t{1});
+  QCOMPARE(desk.document.faults()[0].pillars[0].nodes.size(), std::size_t{3});
+  QCOMPARE(desk.place(0, 1).k, 20.0);
+  QCOMPARE(desk.picking.active_pillar(), Id{0});
+  QCOMPARE(desk.steps(), std::size_t{desk.document.history().size()});
+  // The same spot twice leaves one node.
+  desk.click(20, 5);
+  desk.click(20, 5);
+  QCOMPARE(desk.document.faults()[0].pillars[1].nodes.size(), std::size_t{1});
+}
+
+void PickingTest::a_click_inserts_where_the_line_gets_least_longer() {
+  Desk desk;
+  desk.click(5, 10);
+  desk.click(5, 30);
+  desk.click(6, 20);  // between
+  desk.click(5, 2);   // before the first
+  QCOMPARE(desk.place(0, 0).k, 2.0);
+  QCOMPARE(desk.place(0, 1).k, 10.0);
+  QCOMPARE(desk.place(0, 2).k, 20.0);
+  QCOMPARE(desk.place(0, 3).k, 30.0);
+  // On the line itself the segment decides.
+  Pointer p = desk.at(5, 25, {.kind = Item::Kind::kPillar, .id = desk.document.faults()[0].pillars[0].id});
+  p.segment = 2;
+  desk.picking.move(p);
+  QVERIFY(desk.picking.press(p));
+  QVERIFY(desk.picking.release(p));
+  QCOMPARE(desk.place(0, 3).k, 25.0);
+}
+
+void PickingTest::shift_starts_another_pillar() {
+  Desk desk;
+  desk.click(5, 10);
+  desk.click(8, 10, {}, Qt::ShiftModifier);
+  QCOMPARE(desk.document.faults()[0].pillars.size(), std::size_t{2});
+}
+
+void PickingTest::control_deletes_a_node() {
+  Desk desk;
+  desk.click(5, 10);
+  desk.click(5, 30);
+  desk.click(5, 30, desk.node(0, 1), Qt::ControlModifier);
+  QCOMPARE(desk.document.faults()[0].pillars[0].nodes.size(), std::size_t{1});
+  desk.click(5, 10, desk.node(0, 0), Qt::ControlModifier);  // the last one takes the pillar with it
+  QVERIFY(desk.document.faults()[0].pillars.empty());
+}
+
+void PickingTest::a_drag_moves_a_node_as_one_edit() {
+  Desk desk;
+  desk.click(5, 10);
+  desk.click(5, 30);
+  const std::size_t before = desk.steps();
+  QVERIFY(desk.picking.press(desk.at(5, 10, desk.node(0, 0))));
+  for (int n = 1; n <= 20; ++n) QVERIFY(desk.picking.move(desk.at(5 + 0.1 * n, 10 + 0.2 * n)));
+  QVERIFY(desk.picking.is_dragging());
+  QCOMPARE(desk.steps(), before);
+  const Id fault = desk.document.faults()[0].record.id;
+  QVERIFY(desk.document.is_provisional(fault));
+  QCOMPARE(desk.document.survey()->index_of(desk.document.shown_pillars(fault)[0].nodes[0].position).k, 14.0);
+  QVERIFY(desk.picking.release(desk.at(7, 14)));
+  QCOMPARE(desk.steps(), before + 1);
+  QVERIFY(!desk.document.is_provisional(fault));
+  QCOMPARE(desk.place(0, 0).k, 14.0);
+  QCOMPARE(desk.place(0, 0).j, 7.0);
+}
+
+void PickingTest::escape_puts_everything_back() {
+  Desk desk;
+  desk.click(5, 10);
+  desk.click(5, 30);
+  const std::size_t before = desk.steps();
+  desk.picking.press(desk.at(5, 10, desk.node(0, 0)));
+  desk.picking.move(desk.at(9, 20));
+  QVERIFY(desk.picking.key_press(Qt::Key_Escape, {}));
+  QVERIFY(!desk.document.is_provisional(desk.document.faults()[0].record.id));
+  desk.picking.release(desk.at(9, 20));
+  QCOMPARE(desk.steps(), before);
+  QCOMPARE(desk.place(0, 0).k, 10.0);
+  QCOMPARE(desk.picking.tool(), Tool::kPick);
+  desk.picking.key_press(Qt::Key_Escape, {});
+  QCOMPARE(desk.picking.tool(), Tool::kSelect);
+}
+
+void PickingTest::a_drag_on_empty_ground_draws_a_pillar() {
+  Desk desk;
+  const std::size_t before = desk.steps();
+  QVERIFY(desk.picking.press(desk.at(5, 5)));
+  desk.clock += 300ms;
+  for (int n = 1; n <= 50; ++n) desk.picking.move(desk.at(5 + 0.1 * n, 5 + n));
+  QVERIFY(!desk.picking.stroke().empty());
+  QVERIFY(desk.picking.release(desk.at(10, 55)));
+  QCOMPARE(desk.steps(), before + 1);
+  QCOMPARE(desk.document.faults()[0].pillars[0].nodes.size(), std::size_t{2});  // a straight line needs no more
+  QVERIFY(desk.picking.stroke().empty());
+  // Shorter than 200 ms it is a click that slipped, and does nothing.
+  QVERIFY(desk.picking.press(desk.at(30, 5)));
+  desk.picking.move(desk.at(32, 8));
+  QVERIFY(desk.picking.release(desk.at(32, 8)));
+  QCOMPARE(desk.steps(), before + 1);
+}
+
+void PickingTest::backquote_copies_a_pillar() {
+  Desk desk;
+  desk.click(5, 10);
+  desk.click(5, 30);
+  desk.picking.key_press(Qt::Key_QuoteLeft, {});
+  QVERIFY(desk.picking.press(desk.at(5, 10, desk.node(0, 0))));
+  desk.picking.move(desk.at(9, 12));
+  QVERIFY(desk.picking.release(desk.at(9, 12)));
+  desk.picking.key_release(Qt::Key_QuoteLeft);
+  QCOMPARE(desk.document.faults()[0].pillars.size(), std::size_t{2});
+  QCOMPARE(desk.place(0, 0).j, 5.0);
+  QCOMPARE(desk.place(1, 1).j, 9.0);
+  QCOMPARE(desk.place(1, 1).k, 32.0);
+}
+
+void PickingTest::another_section_starts_another_pillar() {
+  Desk desk;
+  desk.click(5, 10);
+  Pointer p = desk.at(5, 20);
+  p.section.index = 20;
+  p.place.i = 20;
+  desk.picking.press(p);
+  desk.picking.release(p);
+  QCOMPARE(desk.document.faults()[0].pillars.size(), std::size_t{2});
+  QCOMPARE(desk.place(1, 0).i, 20.0);
+}
+
+void PickingTest::a_locked_fault_and_a_reader_change_nothing() {
+  Desk desk(true);
+  const Id fault = desk.document.faults()[0].record.id;
+  desk.selection.set_active_fault(fault);
+  desk.document.edit("lock", [&](project::Interpretation& now) { now.set_fault_property(fault, "locked", "true"); });
+  const std::size_t before = desk.steps();
+  const Pointer p = desk.at(5, 10);
+  desk.picking.move(p);
+  QVERIFY(desk.picking.hint().contains("locked"));
+  QVERIFY(desk.picking.press(p));
+  desk.picking.release(p);
+  QCOMPARE(desk.steps(), before);
+
+  const SampleProject other;
+  Document reader(other.open(project::OpenMode::kRead));
+  Selection selection(reader);
+  Display display(reader);
+  Picking picking(reader, selection, display);
+  picking.set_tool(Tool::kPick);
+  picking.move(p);
+  QVERIFY(!picking.press(p));
+  QVERIFY(picking.hint().contains("read-only"));
+}
+
+void PickingTest::undo_while_the_button_is_down_is_survived() {
+  Desk desk;
+  desk.click(5, 10);
+  desk.click(5, 30);
+  const Item second = desk.node(0, 1);
+  desk.picking.press(desk.at(5, 30, second));
+  desk.picking.move(desk.at(6, 33));
+  desk.document.undo();  // the node is gone
+  desk.picking.move(desk.at(7, 35));
+  desk.picking.release(desk.at(7, 35));
+  QCOMPARE(desk.document.faults()[0].pillars[0].nodes.size(), std::size_t{1});
+  desk.picking.press(desk.at(5, 10, second));
+  desk.picking.release(desk.at(5, 10, second));
+  QCOMPARE(desk.document.faults()[0].pillars[0].nodes.size(), std::size_t{1});
+}
+
+void PickingTest::the_hint_says_what_the_click_does() {
+  Desk desk(true);
+  desk.selection.set_active_fault(desk.document.faults()[0].record.id);
+  const QString fault = QString::fromStdString(desk.document.faults()[0].record.name);
+  desk.picking.move(desk.at(1, 1));
+  QCOMPARE(desk.picking.hint(), QStringLiteral("click starts a pillar of %1; drag draws one").arg(fault));
+  QCOMPARE(desk.picking.shape(), PointerShape::kCross);
+  desk.click(1, 1);
+  desk.picking.move(desk.at(1, 2));
+  QVERIFY(desk.picking.hint().startsWith("click adds a node to pillar"));
+  QVERIFY(desk.picking.hint().endsWith("double-click ends it"));
+  desk.picking.move(desk.at(1, 1, desk.node(0, 0)));
+  QCOMPARE(desk.picking.shape(), PointerShape::kMoveNode);
+  desk.picking.leave();
+  QCOMPARE(desk.picking.hint(), QString());
+}
+
+static const RegisterTest<PickingTest> kRegistered;
+
+}  // namespace footwall::ui
+
+#include "picking_test.moc"
