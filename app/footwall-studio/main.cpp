@@ -9,6 +9,7 @@
 #include <string>
 
 #include "storage/base/error.h"
+#include "ui/window/banner.h"
 #include "ui/window/main_window.h"
 #include "ui/window/theme.h"
 
@@ -87,8 +88,7 @@ int run(QApplication& application, const Options& options) {
   if (!options.project.empty()) window.take_file(QString::fromStdString(options.project));
   if (!options.screenshot.empty()) {
     if (!options.project.empty() && window.workbench() == nullptr) {
-      return fail(Error(ErrorCode::kInvalid, "cannot open " + options.project,
-                        "the picture would show nothing of it"));
+      return fail(Error(ErrorCode::kInvalid, window.banners().text(QStringLiteral("failure")).toStdString()));
     }
     take_picture_when_settled(window, QString::fromStdString(options.screenshot));
   }

@@ -110,6 +110,7 @@ MainWindow::~MainWindow() {
   tool_bar_->show_workbench(nullptr);
   delete views_;
   views_ = nullptr;
+  workbench_.reset();  // while those who hear of it are still there
 }
 
 bool MainWindow::open_project(const QString& path) {

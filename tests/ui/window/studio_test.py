@@ -46,6 +46,11 @@ class StudioTest(unittest.TestCase):
         done = self.studio("none.footwall")
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("none.footwall", done.stderr)
+        (self.folder / "letter.footwall").write_text("Dear all,")
+        refused = self.studio("letter.footwall", "--screenshot", "no.png")
+        self.assertEqual(refused.returncode, 1, refused.stderr)
+        self.assertIn("letter.footwall", refused.stderr)
+        self.assertFalse((self.folder / "no.png").exists())
 
     @unittest.skipIf(shutil.which("Xvfb") is None, "no Xvfb")
     def test_a_picture_of_a_project_and_of_the_start_page(self):
