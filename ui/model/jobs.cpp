@@ -112,6 +112,8 @@ QVariant Jobs::data(const QModelIndex& index, int role) const {
       return job.hint;
     case kLog:
       return job.log;
+    case kNumber:
+      return job.number;
     default:
       return {};
   }

@@ -17,7 +17,7 @@ class Jobs final : public QAbstractListModel {
   Q_OBJECT
 
  public:
-  enum Role { kTitle = Qt::UserRole, kPhase, kAmounts, kFraction, kSecondsLeft, kState, kMessage, kHint, kLog };
+  enum Role { kTitle = Qt::UserRole, kPhase, kAmounts, kFraction, kSecondsLeft, kState, kMessage, kHint, kLog, kNumber };
   enum class State { kRunning, kDone, kCancelled, kFailed };
 
   explicit Jobs(QObject* parent = nullptr);

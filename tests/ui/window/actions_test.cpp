@@ -1,0 +1,178 @@
+#include "ui/window/actions.h"
+
+#include <QMenuBar>
+#include <QTest>
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "ui/sample_project.h"
+#include "ui/test_class.h"
+#include "ui/window/docks.h"
+#include "ui/window/help_window.h"
+#include "ui/window/main_window.h"
+#include "ui/window/theme.h"
+#include "ui/window/view_area.h"
+
+namespace footwall::ui {
+
+class ActionsTest final : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void every_action_has_name_icon_shortcut_tip_and_a_place_in_a_menu();
+  void no_shortcut_is_given_twice();
+  void mnemonics_of_a_menu_differ();
+  void without_a_project_only_what_needs_none_is_enabled();
+  void shortcuts_do_what_the_menu_does();
+  void icons_follow_the_theme();
+  void help_lists_every_action();
+};
+
+void ActionsTest::every_action_has_name_icon_shortcut_tip_and_a_place_in_a_menu() {
+  MainWindow window({});
+  std::set<QAction*> in_menus;
+  for (const QAction* top : window.menuBar()->actions()) {
+    for (QAction* action : top->menu()->actions()) in_menus.insert(action);
+  }
+  QVERIFY(window.actions().table().size() > 50);
+  for (const ActionRow& row : window.actions().table()) {
+    QAction* action = window.actions().action(QString::fromLatin1(row.id));
+    QVERIFY2(action != nullptr, row.id);
+    QVERIFY2(!action->text().isEmpty(), row.id);
+    QVERIFY2(!action->shortcut().isEmpty(), row.id);
+    QVERIFY2(!action->statusTip().isEmpty(), row.id);
+    QVERIFY2(!action->icon().isNull(), row.id);
+    QVERIFY2(in_menus.contains(action), row.id);
+    QVERIFY2(row.run != nullptr, row.id);
+  }
+}
+
+void ActionsTest::no_shortcut_is_given_twice() {
+  MainWindow window({});
+  std::map<QString, QString> owner;
+  for (const ActionRow& row : window.actions().table()) {
+    const QAction* action = window.actions().action(QString::fromLatin1(row.id));
+    QCOMPARE(action->shortcuts().size(), QString::fromLatin1(row.shortcuts).split(QLatin1Char(' ')).size());
+    for (const QKeySequence& key : action->shortcuts()) {
+      const QString text = key.toString();
+      QVERIFY2(!text.isEmpty(), row.id);
+      QVERIFY2(!owner.contains(text), qPrintable(text + QStringLiteral(" of ") + owner[text]));
+      owner[text] = action->objectName();
+    }
+  }
+}
+
+void ActionsTest::mnemonics_of_a_menu_differ() {
+  MainWindow window({});
+  std::set<QChar> tops;
+  for (const QAction* top : window.menuBar()->actions()) {
+    const qsizetype at = top->text().indexOf(QLatin1Char('&'));
+    QVERIFY(at >= 0 && tops.insert(top->text()[at + 1].toLower()).second);
+  }
+}
+
+void ActionsTest::without_a_project_only_what_needs_none_is_enabled() {
+  const SampleProject sample;
+  MainWindow window({});
+  for (const ActionRow& row : window.actions().table()) {
+    QCOMPARE(window.actions().action(QString::fromLatin1(row.id))->isEnabled(), row.needs == kNothing);
+  }
+  QVERIFY(window.open_project(QString::fromStdString(sample.path().string())));
+  const auto enabled = [&](const char* id) {
+    return window.actions().action(QString::fromLatin1(id))->isEnabled();
+  };
+  QVERIFY(enabled("view.inline"));
+  QVERIFY(enabled("tool.pick"));
+  QVERIFY(!enabled("fault.colour"));
+  QVERIFY(!enabled("edit.delete"));
+  Workbench& bench = *window.workbench();
+  bench.selection.select({.kind = Item::Kind::kFault, .id = bench.document.faults().front().record.id});
+  QVERIFY(enabled("fault.colour"));
+  QVERIFY(enabled("edit.delete"));
+  QVERIFY(!enabled("fault.merge"));
+  QVERIFY(!enabled("edit.redo"));
+}
+
+void ActionsTest::shortcuts_do_what_the_menu_does() {
+  const SampleProject sample;
+  MainWindow window({});
+  window.resize(1200, 800);
+  window.show();
+  QApplication::setActiveWindow(&window);  // there is no window manager that would
+  QTRY_VERIFY(window.isActiveWindow());
+  QVERIFY(window.open_project(QString::fromStdString(sample.path().string())));
+  Display& display = window.workbench()->display;
+  QTest::keyClick(&window, Qt::Key_O);
+  QVERIFY(!display.perspective());
+  QTest::keyClick(&window, Qt::Key_C);
+  QCOMPARE(display.faces().statistic, QStringLiteral("contrast"));
+  QTest::keyClick(&window, Qt::Key_E);
+  QVERIFY(display.faces().edges);
+  const std::size_t sections = display.sections().size();
+  QTest::keyClick(&window, Qt::Key_2, Qt::ControlModifier);
+  QCOMPARE(display.sections().size(), sections + 1);
+  QCOMPARE(window.views()->active_section(), display.sections().back().id);
+  const std::int64_t before = display.sections().back().section.index;
+  QTest::keyClick(&window, Qt::Key_X);
+  QCOMPARE(display.sections().back().section.index, before + display.step());
+  QTest::keyClick(&window, Qt::Key_Z);
+  QCOMPARE(display.sections().back().section.index, before);
+  QTest::keyClick(&window, Qt::Key_P);
+  QCOMPARE(window.workbench()->picking.tool(), Tool::kPick);
+  QTest::keyClick(&window, Qt::Key_Escape);
+  QCOMPARE(window.workbench()->picking.tool(), Tool::kSelect);
+  QTest::keyClick(&window, Qt::Key_A, Qt::ControlModifier);
+  QCOMPARE(window.workbench()->selection.faults().size(), window.workbench()->document.faults().size());
+  const std::size_t faults = window.workbench()->document.faults().size();
+  QTest::keyClick(&window, Qt::Key_Delete);
+  QCOMPARE(window.workbench()->document.faults().size(), 0U);
+  QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
+  QCOMPARE(window.workbench()->document.faults().size(), faults);
+}
+
+void ActionsTest::icons_follow_the_theme() {
+  const QIcon one = icon(QStringLiteral("open"));
+  const auto darkest_and_lightest = [&one] {
+    const QImage picture = one.pixmap(24, 24).toImage();
+    int low = 255, high = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        const QColor colour = picture.pixelColor(x, y);
+        if (colour.alpha() < 250) continue;
+        low = std::min(low, colour.lightness());
+        high = std::max(high, colour.lightness());
+      }
+    }
+    return std::pair(low, high);
+  };
+  apply_theme(Theme::kDark);
+  QVERIFY(darkest_and_lightest().first > 150);
+  QCOMPARE(remembered_theme(), Theme::kDark);
+  apply_theme(Theme::kLight);
+  QVERIFY(darkest_and_lightest().second < 100);
+  QCOMPARE(remembered_theme(), Theme::kLight);
+  QCOMPARE(current_theme(), Theme::kLight);
+  apply_theme(Theme::kDark);
+  QVERIFY(icon(QStringLiteral("no such drawing")).isNull());
+}
+
+void ActionsTest::help_lists_every_action() {
+  MainWindow window({});
+  const QString list = shortcut_list(window.actions());
+  for (const ActionRow& row : window.actions().table()) {
+    const QAction* action = window.actions().action(QString::fromLatin1(row.id));
+    QVERIFY2(list.contains(action->text().remove(QLatin1Char('&'))), row.id);
+    QVERIFY2(list.contains(action->shortcut().toString(QKeySequence::NativeText)), row.id);
+  }
+  window.actions().action(QStringLiteral("help.shortcuts"))->trigger();
+  QVERIFY(window.findChild<HelpWindow*>()->isVisible());
+  window.actions().action(QStringLiteral("help.guide"))->trigger();
+  QVERIFY(window.findChild<HelpWindow*>()->windowTitle().contains(QStringLiteral("Guide")));
+}
+
+static const RegisterTest<ActionsTest> kRegistered;
+
+}  // namespace footwall::ui
+
+#include "actions_test.moc"

@@ -1,0 +1,192 @@
+#include "ui/model/project_tree.h"
+
+#include <QAbstractItemModelTester>
+#include <QLineEdit>
+#include <QSignalSpy>
+#include <QTest>
+
+#include "ui/model/fault_commands.h"
+#include "ui/model/history_list.h"
+#include "ui/panels/project_panel.h"
+#include "ui/sample_project.h"
+#include "ui/test_class.h"
+
+namespace footwall::ui {
+namespace {
+
+Item fault_item(Id id) {
+  return {.kind = Item::Kind::kFault, .id = id};
+}
+
+std::unique_ptr<Workbench> open(const SampleProject& sample) {
+  QString held;
+  return open_workbench(sample.path(), {}, &held);
+}
+
+}  // namespace
+
+class ProjectTreeTest final : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void lists_what_there_is();
+  void follows_edits_undo_and_what_is_shown();
+  void a_rename_is_one_edit();
+  void deletes_with_undo();
+  void history_follows();
+  void selects_both_ways();
+  void a_click_on_the_ring_hides();
+};
+
+void ProjectTreeTest::lists_what_there_is() {
+  const SampleProject sample;
+  const auto bench = open(sample);
+  ProjectTree tree(bench->document, bench->display);
+  QAbstractItemModelTester tester(&tree, QAbstractItemModelTester::FailureReportingMode::QtTest);
+  QCOMPARE(tree.rowCount(), 5);
+  QCOMPARE(tree.rowCount(tree.index(0, 0)), static_cast<int>(bench->document.volumes().size()));
+  QCOMPARE(tree.rowCount(tree.index(1, 0)), static_cast<int>(bench->document.faults().size()));
+  const Fault& fault = bench->document.faults().front();
+  const QModelIndex index = tree.index_of(fault_item(fault.record.id));
+  QCOMPARE(tree.item_of(index), fault_item(fault.record.id));
+  QCOMPARE(index.data(ProjectTree::kDetail).toString(), QString::number(fault.pillars.size()));
+  QCOMPARE(index.data(ProjectTree::kColour).value<QColor>(),
+           QColor(QString::fromStdString(fault.record.colour)));
+  QVERIFY(!tree.item_of(tree.index(1, 0)));
+}
+
+void ProjectTreeTest::follows_edits_undo_and_what_is_shown() {
+  const SampleProject sample;
+  const auto bench = open(sample);
+  ProjectTree tree(bench->document, bench->display);
+  QAbstractItemModelTester tester(&tree, QAbstractItemModelTester::FailureReportingMode::QtTest);
+  const int before = tree.rowCount(tree.index(1, 0));
+  const Id made = new_fault(bench->document);
+  QVERIFY(made != 0);
+  QCOMPARE(tree.rowCount(tree.index(1, 0)), before + 1);
+  const QModelIndex index = tree.index_of(fault_item(made));
+  QVERIFY(tree.setData(index, Qt::Unchecked, Qt::CheckStateRole));
+  QVERIFY(!bench->display.is_visible(fault_item(made)));
+  QCOMPARE(index.data(Qt::CheckStateRole).toInt(), static_cast<int>(Qt::Unchecked));
+  QVERIFY(bench->document.undo());
+  QCOMPARE(tree.rowCount(tree.index(1, 0)), before);
+  QVERIFY(bench->document.redo());
+  QCOMPARE(tree.rowCount(tree.index(1, 0)), before + 1);
+  const Id iso = bench->display.add_isosurface(bench->display.volume(), 0.5);
+  QCOMPARE(tree.rowCount(tree.index(2, 0)), 1);
+  QVERIFY(tree.remove({{.kind = Item::Kind::kIsosurface, .id = iso}}));
+  QCOMPARE(tree.rowCount(tree.index(2, 0)), 0);
+  bench->document.store().save_view({.name = "south", .camera = "180,30,1", .exaggeration = 0, .when = {}});
+  Q_EMIT bench->document.views_changed();
+  const QModelIndex view = tree.index(0, 0, tree.index(4, 0));
+  QVERIFY(tree.setData(view, QStringLiteral("from the south"), Qt::EditRole));
+  QCOMPARE(bench->document.project().views().size(), 1U);
+  QCOMPARE(bench->document.project().views().front().name, std::string("from the south"));
+  QVERIFY(tree.remove({{.kind = Item::Kind::kView, .name = QStringLiteral("from the south")}}));
+  QCOMPARE(tree.rowCount(tree.index(4, 0)), 0);
+}
+
+void ProjectTreeTest::a_rename_is_one_edit() {
+  const SampleProject sample;
+  const auto bench = open(sample);
+  ProjectTree tree(bench->document, bench->display);
+  QAbstractItemModelTester tester(&tree, QAbstractItemModelTester::FailureReportingMode::QtTest);
+  const Id fault = bench->document.faults().front().record.id;
+  const QString former = QString::fromStdString(bench->document.faults().front().record.name);
+  const std::size_t steps = bench->document.history().size();
+  QVERIFY(tree.setData(tree.index_of(fault_item(fault)), QStringLiteral("  main "), Qt::EditRole));
+  QCOMPARE(bench->document.history().size(), steps + 1);
+  QCOMPARE(tree.index_of(fault_item(fault)).data().toString(), QStringLiteral("main"));
+  QSignalSpy failed(&bench->document, &Document::failed);
+  QVERIFY(!tree.setData(tree.index_of(fault_item(fault)), QString(), Qt::EditRole));
+  const QString other = QString::fromStdString(bench->document.faults().back().record.name);
+  QVERIFY(!tree.setData(tree.index_of(fault_item(fault)), other, Qt::EditRole));
+  QCOMPARE(failed.size(), 2);
+  QCOMPARE(bench->document.history().size(), steps + 1);
+  QVERIFY(bench->document.undo());
+  QCOMPARE(tree.index_of(fault_item(fault)).data().toString(), former);
+}
+
+void ProjectTreeTest::deletes_with_undo() {
+  const SampleProject sample;
+  const auto bench = open(sample);
+  ProjectPanel panel(*bench, [](const QString&) -> QAction* { return nullptr; });
+  QAbstractItemModelTester tester(&panel.tree(), QAbstractItemModelTester::FailureReportingMode::QtTest);
+  const std::size_t faults = bench->document.faults().size();
+  const std::size_t steps = bench->document.history().size();
+  QVERIFY(faults > 2);
+  bench->selection.select_all({bench->document.faults()[0].record.id, bench->document.faults()[2].record.id},
+                              {}, {});
+  panel.delete_selected();
+  QCOMPARE(bench->document.faults().size(), faults - 2);
+  QCOMPARE(bench->document.history().size(), steps + 1);
+  QVERIFY(bench->document.undo());
+  QCOMPARE(panel.tree().rowCount(panel.tree().index(1, 0)), static_cast<int>(faults));
+}
+
+void ProjectTreeTest::history_follows() {
+  const SampleProject sample;
+  const auto bench = open(sample);
+  HistoryList list(bench->document);
+  QAbstractItemModelTester tester(&list, QAbstractItemModelTester::FailureReportingMode::QtTest);
+  const int before = list.rowCount();
+  QCOMPARE(list.current_row(), before - 1);
+  QVERIFY(new_fault(bench->document) != 0);
+  QCOMPARE(list.rowCount(), before + 1);
+  QVERIFY(bench->document.undo());
+  QCOMPARE(list.rowCount(), before + 1);
+  QCOMPARE(list.current_row(), before - 1);
+  QVERIFY(list.index(before).data(HistoryList::kUndone).toBool());
+  QCOMPARE(list.index(0).data(HistoryList::kStep).toLongLong(), 0);
+}
+
+void ProjectTreeTest::selects_both_ways() {
+  const SampleProject sample;
+  const auto bench = open(sample);
+  ProjectPanel panel(*bench, [](const QString&) -> QAction* { return nullptr; });
+  const Fault& first = bench->document.faults()[0];
+  const Fault& second = bench->document.faults()[1];
+  const auto is_selected = [&](Id fault) {
+    return panel.selectionModel()->isSelected(panel.tree().index_of(fault_item(fault)));
+  };
+  bench->selection.select({.kind = Item::Kind::kNode, .id = second.pillars[0].nodes[0].id});
+  QVERIFY(is_selected(second.record.id));
+  QCOMPARE(bench->selection.current().kind, Item::Kind::kNode);
+  panel.setCurrentIndex(panel.tree().index_of(fault_item(first.record.id)));
+  QCOMPARE(bench->selection.current(), fault_item(first.record.id));
+  QCOMPARE(bench->selection.active_fault(), first.record.id);
+  QVERIFY(!is_selected(second.record.id));
+  panel.selectionModel()->select(panel.tree().index_of(fault_item(second.record.id)),
+                                 QItemSelectionModel::Select);
+  QCOMPARE(bench->selection.faults(), (std::set<Id>{first.record.id, second.record.id}));
+}
+
+void ProjectTreeTest::a_click_on_the_ring_hides() {
+  const SampleProject sample;
+  const auto bench = open(sample);
+  ProjectPanel panel(*bench, [](const QString&) -> QAction* { return nullptr; });
+  panel.resize(240, 400);
+  panel.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&panel));
+  const Id fault = bench->document.faults().front().record.id;
+  const QModelIndex index = panel.tree().index_of(fault_item(fault));
+  const QRect row = panel.visualRect(index);
+  QTest::mouseClick(panel.viewport(), Qt::LeftButton, {}, {row.left() + 14, row.center().y()});
+  QVERIFY(!bench->display.is_visible(fault_item(fault)));
+  QTest::mouseClick(panel.viewport(), Qt::LeftButton, {}, {row.left() + 14, row.center().y()});
+  QVERIFY(bench->display.is_visible(fault_item(fault)));
+  bench->selection.select(fault_item(fault));
+  panel.rename_current();
+  auto* field = panel.findChild<QLineEdit*>();
+  QVERIFY(field != nullptr);
+  field->selectAll();
+  QTest::keyClicks(field, QStringLiteral("by hand"));
+  QTest::keyClick(field, Qt::Key_Return);
+  QTRY_COMPARE(bench->document.fault(fault)->record.name, std::string("by hand"));
+}
+
+static const RegisterTest<ProjectTreeTest> kRegistered;
+
+}  // namespace footwall::ui
+
+#include "project_tree_test.moc"

@@ -1,0 +1,19 @@
+// The table of actions.h, menu by menu.
+#pragma once
+#include <QtGlobal>
+#include <vector>
+
+#include "ui/window/actions.h"
+
+namespace footwall::ui {
+
+std::vector<ActionRow> file_actions();
+std::vector<ActionRow> edit_actions();
+std::vector<ActionRow> view_actions();
+std::vector<ActionRow> survey_actions();
+std::vector<ActionRow> fault_actions();
+std::vector<ActionRow> compute_actions();
+std::vector<ActionRow> window_actions();
+std::vector<ActionRow> help_actions();
+
+}  // namespace footwall::ui

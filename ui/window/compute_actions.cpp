@@ -1,0 +1,50 @@
+#include "ui/window/action_groups.h"
+#include "ui/window/main_window.h"
+
+namespace footwall::ui {
+namespace {
+
+// The engine gets every fault anew, and answers with the statistics of all their faces.
+void update_all(MainWindow& window) {
+  Workbench& bench = *window.workbench();
+  bench.engine.start();
+  bench.engine.set_volume(bench.display.volume());
+}
+
+void cancel_jobs(MainWindow& window) {
+  for (Jobs* jobs : {&window.workbench()->jobs, &window.start_jobs()}) {
+    for (int row = 0; row < jobs->rowCount(); ++row)
+      jobs->cancel(jobs->index(row).data(Jobs::kNumber).toInt());
+  }
+}
+
+bool runs(MainWindow& window) {
+  const EngineLink::State state = window.workbench()->engine.state();
+  return state != EngineLink::State::kOff && state != EngineLink::State::kLost;
+}
+
+void switch_engine(MainWindow& window) {
+  if (runs(window)) {
+    window.workbench()->engine.stop();
+  } else {
+    window.workbench()->engine.start();
+  }
+}
+
+}  // namespace
+
+std::vector<ActionRow> compute_actions() {
+  using M = Menu;
+  return {
+      {"compute.update-all", M::kCompute, QT_TRANSLATE_NOOP("Actions", "&Update all"), "Ctrl+U F5", "update",
+       QT_TRANSLATE_NOOP("Actions", "Statistics of all faces of all faults, from the volume shown"),
+       kProject | kSurvey | kVolume, update_all},
+      {"compute.engine", M::kCompute, QT_TRANSLATE_NOOP("Actions", "&Engine"), "Ctrl+Alt+E", "engine",
+       QT_TRANSLATE_NOOP("Actions", "Start the engine, which computes colours, or stop it"), kProject,
+       switch_engine, runs, true},
+      {"compute.cancel", M::kCompute, QT_TRANSLATE_NOOP("Actions", "&Cancel jobs"), "Ctrl+.", "stop",
+       QT_TRANSLATE_NOOP("Actions", "Cancel all jobs that run"), kProject | kJob, cancel_jobs},
+  };
+}
+
+}  // namespace footwall::ui

@@ -1,0 +1,216 @@
+#include <QApplication>
+#include <QColorDialog>
+#include <QInputDialog>
+#include <QKeyEvent>
+
+#include "engine/tasks/triangulate.h"
+#include "ui/model/fault_commands.h"
+#include "ui/model/tour.h"
+#include "ui/window/action_groups.h"
+#include "ui/window/main_window.h"
+#include "ui/window/view_area.h"
+#include "ui/window/view_tile.h"
+
+namespace footwall::ui {
+namespace {
+
+QString translated(const char* text) {
+  return QCoreApplication::translate("Actions", text);
+}
+
+Document& document(MainWindow& window) {
+  return window.workbench()->document;
+}
+
+// The selected faults, else the active one.
+std::set<Id> chosen_faults(MainWindow& window) {
+  const Selection& selection = window.workbench()->selection;
+  if (!selection.faults().empty()) return selection.faults();
+  if (selection.active_fault() != 0) return {selection.active_fault()};
+  return {};
+}
+
+// The selected pillars, else all of the selected faults.
+std::set<Id> chosen_pillars(MainWindow& window) {
+  const Selection& selection = window.workbench()->selection;
+  if (!selection.pillars().empty()) return selection.pillars();
+  std::set<Id> pillars;
+  for (const Id fault : selection.faults()) {
+    const Fault* one = document(window).fault(fault);
+    if (one == nullptr) continue;
+    for (const survey::Pillar& pillar : one->pillars) pillars.insert(pillar.id);
+  }
+  return pillars;
+}
+
+void make_fault(MainWindow& window) {
+  const Id made = new_fault(document(window));
+  if (made != 0) window.workbench()->selection.select({.kind = Item::Kind::kFault, .id = made});
+}
+
+void choose_colour(MainWindow& window) {
+  const std::set<Id> faults = chosen_faults(window);
+  const Fault* first = document(window).fault(*faults.begin());
+  const QColor now(first == nullptr ? QString() : QString::fromStdString(first->record.colour));
+  const QColor colour = QColorDialog::getColor(now, &window, translated("Colour of the fault"));
+  if (colour.isValid()) set_fault_colour(document(window), faults, colour.name());
+}
+
+bool all_locked(MainWindow& window) {
+  const std::set<Id> faults = chosen_faults(window);
+  return !faults.empty() && std::ranges::all_of(faults, [&](Id id) {
+    const Fault* fault = document(window).fault(id);
+    return fault != nullptr && fault->record.locked;
+  });
+}
+
+void merge(MainWindow& window) {
+  std::set<Id> others = window.workbench()->selection.faults();
+  const Id active = window.workbench()->selection.active_fault();
+  const Id into = others.contains(active) ? active : *others.begin();
+  others.erase(into);
+  merge_faults(document(window), into, others);
+}
+
+void split(MainWindow& window) {
+  const Id made = split_fault(document(window), window.workbench()->selection.pillars());
+  if (made != 0) window.workbench()->selection.select({.kind = Item::Kind::kFault, .id = made});
+}
+
+void assign(MainWindow& window) {
+  QStringList names;
+  for (const Fault& fault : document(window).faults())
+    names.append(QString::fromStdString(fault.record.name));
+  names.append(translated("A new fault"));
+  bool ok = false;
+  const QString name = QInputDialog::getItem(&window, translated("Assign pillars"),
+                                             translated("The selected pillars go to:"), names, 0, false, &ok);
+  if (!ok) return;
+  const qsizetype place = names.indexOf(name);
+  if (place == names.size() - 1) return split(window);
+  assign_pillars(document(window), window.workbench()->selection.pillars(),
+                 document(window).faults()[static_cast<std::size_t>(place)].record.id);
+}
+
+void resample(MainWindow& window) {
+  bool ok = false;
+  const int nodes =
+      QInputDialog::getInt(&window, translated("Resample pillars"),
+                           translated("Nodes along each pillar, evenly spaced:"), 8, 2, 1000, 1, &ok);
+  if (ok) resample_pillars(document(window), chosen_pillars(window), nodes);
+}
+
+// A task of the engine's that edits the project itself, for each chosen fault.
+template <class Task>
+void for_faults(MainWindow& window, const Task& task) {
+  Document& document = window.workbench()->document;
+  try {
+    for (const Id id : chosen_faults(window)) {
+      const Fault* fault = document.fault(id);
+      if (fault != nullptr && !is_unassigned(*fault)) task(document.store(), fault->record);
+    }
+  } catch (const Error& error) {
+    window.tell_failure(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
+  }
+  document.refresh();
+}
+
+void interpolate(MainWindow& window) {
+  bool ok = false;
+  const double every = QInputDialog::getDouble(&window, translated("Interpolate pillars"),
+                                               translated("Lines between pillars:"), 10, 1, 10000, 0, &ok);
+  if (!ok) return;
+  for_faults(window, [every](project::Project& project, const project::FaultRecord& fault) {
+    tasks::interpolate_fault(project, fault, {.every = every, .tolerance = {}}, {});
+  });
+}
+
+void drop_interpolated(MainWindow& window) {
+  for_faults(window, [](project::Project& project, const project::FaultRecord& fault) {
+    tasks::remove_interpolated(project, fault);
+  });
+}
+
+// The face of the next lowest contrast, in the middle of every view.
+void go_to_worst(MainWindow& window) {
+  Workbench& bench = *window.workbench();
+  const Item now = bench.selection.current();
+  const Id fault = now.kind == Item::Kind::kFace ? now.id : *chosen_faults(window).begin();
+  const auto surface = bench.surfaces.surface(fault);
+  const auto contrast = bench.surfaces.numbers(fault, QStringLiteral("contrast"));
+  std::vector<TourStop> stops;
+  if (surface && contrast) stops = worst_faces(*surface, *contrast);
+  const TourStop* stop = next_stop(stops, now);
+  if (stop == nullptr) {
+    return window.tell_failure(translated("the contrast of no face of this fault is known"),
+                               translated("Compute > Update all computes them"));
+  }
+  bench.selection.select(stop->face);
+  bench.display.set_cursor(stop->place);
+  const auto sections = bench.display.sections();
+  for (const Display::ShownSection& shown : sections) {
+    if (!shown.linked || shown.section.kind == Section::Kind::kLine) continue;
+    Section moved = shown.section;
+    moved.index = std::llround(moved.kind == Section::Kind::kInline      ? stop->place.i
+                               : moved.kind == Section::Kind::kCrossline ? stop->place.j
+                                                                         : stop->place.k);
+    bench.display.move_section(shown.id, stepped(moved, 0, *bench.document.survey()));
+  }
+  for (const ViewTile* tile : window.views()->tiles()) {
+    QKeyEvent frame(QEvent::KeyPress, Qt::Key_F, Qt::NoModifier);
+    QWidget* view = tile->view();
+    while (view->focusProxy() != nullptr) view = view->focusProxy();
+    QApplication::sendEvent(view, &frame);
+  }
+}
+
+}  // namespace
+
+std::vector<ActionRow> fault_actions() {
+  using M = Menu;
+  constexpr unsigned kEdit = kProject | kWriting;
+  return {
+      {"fault.new", M::kFault, QT_TRANSLATE_NOOP("Actions", "&New fault"), "Shift+N", "fault-new",
+       QT_TRANSLATE_NOOP("Actions", "Make a fault; picks go to it from now on"), kEdit, make_fault},
+      {"fault.colour", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Colour…"), "Ctrl+Shift+C", "palette",
+       QT_TRANSLATE_NOOP("Actions", "Another colour for the selected faults"), kEdit | kFault, choose_colour},
+      {"fault.lock", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Lock"), "Ctrl+L", "lock",
+       QT_TRANSLATE_NOOP("Actions", "Locked faults cannot be edited"), kEdit | kFault,
+       [](MainWindow& window) { lock_faults(document(window), chosen_faults(window), !all_locked(window)); },
+       all_locked},
+      {"fault.merge", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Merge"), "Ctrl+M", "merge",
+       QT_TRANSLATE_NOOP("Actions", "The selected faults become one"), kEdit | kTwoFaults, merge, nullptr,
+       true},
+      {"fault.split", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Split"), "Ctrl+Shift+M", "split",
+       QT_TRANSLATE_NOOP("Actions", "The selected pillars become a fault of their own"), kEdit | kPicked,
+       split},
+      {"fault.assign", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Assign pillars…"), "Ctrl+Shift+F", "assign",
+       QT_TRANSLATE_NOOP("Actions", "The selected pillars go to another fault"), kEdit | kPicked, assign},
+      {"fault.reverse", M::kFault, QT_TRANSLATE_NOOP("Actions", "Re&verse pillars"), "Ctrl+R", "reverse",
+       QT_TRANSLATE_NOOP("Actions", "The last node becomes the first"), kEdit | kPillars,
+       [](MainWindow& window) { reverse_pillars(document(window), chosen_pillars(window)); }, nullptr, true},
+      {"fault.smooth", M::kFault, QT_TRANSLATE_NOOP("Actions", "Smoo&th pillars"), "Ctrl+Shift+S", "smooth",
+       QT_TRANSLATE_NOOP("Actions", "Inner nodes move towards the middle of their neighbours"),
+       kEdit | kPillars,
+       [](MainWindow& window) { smooth_pillars(document(window), chosen_pillars(window)); }},
+      {"fault.resample", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Resample pillars…"), "Ctrl+Shift+R",
+       "resample", QT_TRANSLATE_NOOP("Actions", "Another number of nodes, evenly spaced"), kEdit | kPillars,
+       resample},
+      {"fault.interpolate", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Interpolate pillars…"), "Ctrl+Shift+I",
+       "pillars", QT_TRANSLATE_NOOP("Actions", "Pillars between picked ones, which follow them"),
+       kEdit | kSurvey | kFault, interpolate, nullptr, true},
+      {"fault.drop-interpolated", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Drop interpolated"), "Ctrl+Alt+I",
+       "pillars-drop", QT_TRANSLATE_NOOP("Actions", "Take the interpolated pillars away"),
+       kEdit | kSurvey | kFault, drop_interpolated},
+      {"fault.accept", M::kFault, QT_TRANSLATE_NOOP("Actions", "Acc&ept pillars"), "Ctrl+Return", "accept",
+       QT_TRANSLATE_NOOP("Actions", "Interpolated pillars become picked ones, as they stand"),
+       kEdit | kPillars,
+       [](MainWindow& window) { accept_pillars(document(window), chosen_pillars(window)); }},
+      {"fault.worst", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Worst next"), "W", "worst",
+       QT_TRANSLATE_NOOP(
+           "Actions", "Go to the face that sits worst on the fault, then to the next: lowest contrast first"),
+       kProject | kSurvey | kFault, go_to_worst, nullptr, true},
+  };
+}
+
+}  // namespace footwall::ui

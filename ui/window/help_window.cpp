@@ -1,0 +1,89 @@
+#include "ui/window/help_window.h"
+
+#include <QCoreApplication>
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QTextBrowser>
+#include <QTextTable>
+#include <QVBoxLayout>
+
+#include "ui/window/actions.h"
+
+namespace footwall::ui {
+namespace {
+
+constexpr double kMargin = 20;
+
+}  // namespace
+
+QString guide_path() {
+  const QDir program(QCoreApplication::applicationDirPath());
+  for (const QString& path : {program.filePath(QStringLiteral(FOOTWALL_INSTALLED_DOCS "/docs/studio.md")),
+                              QStringLiteral(FOOTWALL_SOURCE_DOCS "/studio.md")}) {
+    if (QFileInfo::exists(path)) return QDir::cleanPath(path);
+  }
+  return {};
+}
+
+QString shortcut_list(const Actions& actions) {
+  QString text;
+  const ActionRow* before = nullptr;
+  for (const ActionRow& row : actions.table()) {
+    const QAction* action = actions.action(QString::fromLatin1(row.id));
+    if (before == nullptr || before->menu != row.menu) {
+      text += QStringLiteral("\n## %1\n\n| %2 | %3 | %4 |\n|---|---|---|\n")
+                  .arg(title_of(row.menu).remove(QLatin1Char('&')), HelpWindow::tr("Action"),
+                       HelpWindow::tr("Keys"), HelpWindow::tr("What it does"));
+    }
+    before = &row;
+    QStringList keys;
+    for (const QKeySequence& key : action->shortcuts()) keys.append(key.toString(QKeySequence::NativeText));
+    text += QStringLiteral("| **%1** | %2 | %3 |\n")
+                .arg(action->text().remove(QLatin1Char('&')), keys.join(QStringLiteral(", ")),
+                     action->statusTip());
+  }
+  return text;
+}
+
+HelpWindow::HelpWindow(QWidget* parent) : QDialog(parent) {
+  resize(860, 720);
+  browser_ = new QTextBrowser(this);
+  browser_->setOpenExternalLinks(false);
+  browser_->setFrameShape(QFrame::NoFrame);
+  auto* whole = new QVBoxLayout(this);
+  whole->setContentsMargins(0, 0, 0, 0);
+  whole->addWidget(browser_);
+}
+
+void HelpWindow::show_guide() {
+  const QString path = guide_path();
+  QFile file(path);
+  if (path.isEmpty() || !file.open(QIODevice::ReadOnly)) {
+    return show_text(tr("Guide"),
+                     tr("# Footwall Studio\n\nThe guide, docs/studio.md, was not installed with this "
+                        "program. Help > Shortcuts lists all that the window can do."));
+  }
+  browser_->setSearchPaths({QFileInfo(path).absolutePath()});
+  show_text(tr("Guide"), QString::fromUtf8(file.readAll()));
+}
+
+void HelpWindow::show_text(const QString& title, const QString& markdown) {
+  setWindowTitle(tr("%1 - Footwall Studio").arg(title));
+  browser_->setMarkdown(markdown);
+  browser_->document()->setDocumentMargin(kMargin);
+  for (QTextFrame* frame : browser_->document()->rootFrame()->childFrames()) {
+    auto* table = qobject_cast<QTextTable*>(frame);
+    if (table == nullptr) continue;
+    QTextTableFormat plain = table->format();
+    plain.setBorder(0);
+    plain.setCellPadding(3);
+    plain.setCellSpacing(0);
+    table->setFormat(plain);
+  }
+  show();
+  raise();
+  activateWindow();
+}
+
+}  // namespace footwall::ui

@@ -1,0 +1,52 @@
+// The row under the menu: tools, views, what sections and faces show, and the one large button.
+#pragma once
+#include <QToolBar>
+#include <QToolButton>
+
+#include "ui/model/workbench.h"
+
+namespace footwall::ui {
+
+class Actions;
+
+// An action as icon, name and its key in dim letters.
+class ActionButton final : public QToolButton {
+  Q_OBJECT
+
+ public:
+  // prominent: the one button that stands out.
+  ActionButton(QAction* action, bool shows_key, bool prominent, QWidget* parent = nullptr);
+  QSize sizeHint() const override;
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  QString words() const;
+  QString key() const;
+  bool shows_key_ = false;
+  bool prominent_ = false;
+};
+
+class ToolBar final : public QToolBar {
+  Q_OBJECT
+
+ public:
+  ToolBar(const Actions& actions, QWidget* parent = nullptr);
+  // Null: no project.
+  void show_workbench(Workbench* workbench);
+
+ private:
+  QToolButton* add_choice(const QString& tip, const std::function<void(QMenu&)>& fill);
+  void fill_colour_maps(QMenu& menu);
+  void fill_statistics(QMenu& menu);
+  void refresh();
+
+  Workbench* workbench_ = nullptr;
+  QToolButton* colours_ = nullptr;
+  QToolButton* clip_ = nullptr;
+  QToolButton* step_ = nullptr;
+  QToolButton* statistic_ = nullptr;
+};
+
+}  // namespace footwall::ui

@@ -1,0 +1,259 @@
+#include "ui/window/view_area.h"
+
+#include <QApplication>
+#include <QJsonArray>
+#include <QSplitter>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "ui/window/view_tile.h"
+
+namespace footwall::ui {
+namespace {
+
+constexpr int kMaxPixels = 100000;
+
+QJsonArray json_of(const QList<int>& sizes) {
+  QJsonArray json;
+  for (const int size : sizes) json.append(size);
+  return json;
+}
+
+// Sizes as stored; none where they are not for `count` widgets.
+QList<int> sizes_from(const QJsonValue& json, int count) {
+  QList<int> sizes;
+  for (const QJsonValue& size : json.toArray()) sizes.append(std::clamp(size.toInt(), 0, kMaxPixels));
+  return sizes.size() == count && std::ranges::any_of(sizes, [](int size) { return size > 0; })
+             ? sizes
+             : QList<int>();
+}
+
+std::vector<ViewTile*> tiles_of(const QSplitter& column) {
+  std::vector<ViewTile*> tiles;
+  for (int n = 0; n < column.count(); ++n) {
+    if (auto* tile = qobject_cast<ViewTile*>(column.widget(n))) tiles.push_back(tile);
+  }
+  return tiles;
+}
+
+}  // namespace
+
+ViewArea::ViewArea(Workbench& workbench, ViewFactories factories, const QJsonObject& layout, QWidget* parent)
+    : QWidget(parent), workbench_(workbench), factories_(std::move(factories)) {
+  auto* whole = new QVBoxLayout(this);
+  whole->setContentsMargins(0, 0, 0, 0);
+  columns_ = new QSplitter(Qt::Horizontal, this);
+  columns_->setHandleWidth(1);
+  columns_->setChildrenCollapsible(false);
+  whole->addWidget(columns_);
+  build(layout);
+  connect(&workbench_.display, &Display::sections_changed, this, &ViewArea::sync_sections);
+  connect(qApp, &QApplication::focusChanged, this, [this](QWidget*, QWidget* now) { focus_moved(now); });
+}
+
+Id ViewArea::active_section() const {
+  return active_ == nullptr ? 0 : active_->section();
+}
+
+std::vector<ViewTile*> ViewArea::tiles() const {
+  std::vector<ViewTile*> all;
+  for (int n = 0; n < columns_->count(); ++n) {
+    const auto* column = qobject_cast<QSplitter*>(columns_->widget(n));
+    if (column == nullptr) continue;
+    const auto tiles = tiles_of(*column);
+    all.insert(all.end(), tiles.begin(), tiles.end());
+  }
+  return all;
+}
+
+void ViewArea::activate(ViewTile* tile) {
+  if (tile == active_) return;
+  if (active_ != nullptr) active_->set_active(false);
+  active_ = tile;
+  if (active_ != nullptr) active_->set_active(true);
+  Q_EMIT active_changed();
+}
+
+void ViewArea::activate_next(int by) {
+  const auto all = tiles();
+  if (all.empty()) return;
+  const auto count = static_cast<std::ptrdiff_t>(all.size());
+  const auto here = std::ranges::find(all, active_) - all.begin();
+  ViewTile* next = all[static_cast<std::size_t>((here % count + by + count) % count)];
+  if (maximised_ != nullptr) maximise(next);
+  activate(next);
+  next->view()->setFocus(Qt::ShortcutFocusReason);
+}
+
+void ViewArea::maximise(ViewTile* tile) {
+  maximised_ = tile == maximised_ ? nullptr : tile;
+  for (int n = 0; n < columns_->count(); ++n) {
+    auto* column = qobject_cast<QSplitter*>(columns_->widget(n));
+    if (column == nullptr) continue;
+    column->setVisible(maximised_ == nullptr || column == column_of(maximised_));
+    for (ViewTile* one : tiles_of(*column)) one->setVisible(maximised_ == nullptr || one == maximised_);
+  }
+}
+
+void ViewArea::close(ViewTile* tile) {
+  if (tile->section() != 0) {
+    workbench_.display.remove_section(tile->section());
+  } else {
+    remove(tile);
+  }
+}
+
+void ViewArea::move_to_own_column(ViewTile* tile) {
+  if (maximised_ != nullptr) maximise(maximised_);
+  QSplitter* from = column_of(tile);
+  const int place = columns_->indexOf(from);
+  if (tiles_of(*from).size() > 1) {
+    add_column(place + 1)->addWidget(tile);
+  } else if (place > 0) {
+    qobject_cast<QSplitter*>(columns_->widget(place - 1))->addWidget(tile);
+  }
+  drop_empty_columns();
+  tile->view()->setFocus(Qt::OtherFocusReason);
+}
+
+ViewTile* ViewArea::scene() const {
+  const auto all = tiles();
+  const auto found = std::ranges::find(all, 0, &ViewTile::section);
+  return found == all.end() ? nullptr : *found;
+}
+
+void ViewArea::show_scene(bool on) {
+  if (on == has_scene()) return;
+  if (on) {
+    add_column(0)->addWidget(make_tile(0));
+    return;
+  }
+  for (ViewTile* tile : tiles()) {
+    if (tile->section() == 0) remove(tile);
+  }
+}
+
+// A section is named by its place in Display's list: its id is another one after opening.
+QJsonObject ViewArea::layout() const {
+  QJsonArray columns;
+  const auto& sections = workbench_.display.sections();
+  for (int n = 0; n < columns_->count(); ++n) {
+    const auto* column = qobject_cast<QSplitter*>(columns_->widget(n));
+    if (column == nullptr) continue;
+    QJsonArray tiles;
+    for (const ViewTile* tile : tiles_of(*column)) {
+      const auto found = std::ranges::find(sections, tile->section(), &Display::ShownSection::id);
+      tiles.append(tile->section() == 0 ? -1 : static_cast<int>(found - sections.begin()));
+    }
+    columns.append(QJsonObject{{"tiles", tiles}, {"heights", json_of(column->sizes())}});
+  }
+  return {{"columns", columns}, {"widths", json_of(columns_->sizes())}};
+}
+
+void ViewArea::build(const QJsonObject& layout) {
+  const auto& sections = workbench_.display.sections();
+  std::set<int> placed;
+  const QJsonArray columns = layout["columns"].toArray();
+  for (const QJsonValue& stored : columns) {
+    QSplitter* column = add_column();
+    const QJsonArray tiles = stored.toObject()["tiles"].toArray();
+    for (const QJsonValue& tile : tiles) {
+      const int number = tile.toInt(-2);
+      if (number < -1 || number >= static_cast<int>(sections.size()) || !placed.insert(number).second)
+        continue;
+      column->addWidget(make_tile(number < 0 ? 0 : sections[static_cast<std::size_t>(number)].id));
+    }
+    const QList<int> heights = sizes_from(stored.toObject()["heights"], column->count());
+    if (!heights.isEmpty()) column->setSizes(heights);
+  }
+  if (columns.isEmpty()) add_column()->addWidget(make_tile(0));
+  drop_empty_columns();
+  sync_sections();
+  const QList<int> widths = sizes_from(layout["widths"], columns_->count());
+  columns_->setSizes(widths.isEmpty() ? QList<int>{550, 450} : widths);
+  const auto all = tiles();
+  if (!all.empty()) activate(all.front());
+}
+
+ViewTile* ViewArea::make_tile(Id section) {
+  auto* tile = new ViewTile(workbench_, factories_, section);
+  connect(tile, &ViewTile::maximise_asked, this, [this, tile] { maximise(tile); });
+  // Later: the tile is still handling the click that asked.
+  connect(
+      tile, &ViewTile::close_asked, this, [this, tile] { close(tile); }, Qt::QueuedConnection);
+  return tile;
+}
+
+QSplitter* ViewArea::add_column(int place) {
+  auto* column = new QSplitter(Qt::Vertical);
+  column->setHandleWidth(1);
+  column->setChildrenCollapsible(false);
+  columns_->insertWidget(place < 0 ? columns_->count() : place, column);
+  return column;
+}
+
+QSplitter* ViewArea::column_of(const ViewTile* tile) const {
+  return qobject_cast<QSplitter*>(tile->parentWidget());
+}
+
+// Where the active section stands, else the last column that holds no scene, else a new one.
+QSplitter* ViewArea::column_for_sections() {
+  if (active_section() != 0) return column_of(active_);
+  for (int n = columns_->count() - 1; n >= 0; --n) {
+    auto* column = qobject_cast<QSplitter*>(columns_->widget(n));
+    const auto tiles = tiles_of(*column);
+    if (std::ranges::none_of(tiles, [](const ViewTile* tile) { return tile->section() == 0; })) return column;
+  }
+  return add_column();
+}
+
+void ViewArea::drop_empty_columns() {
+  for (int n = columns_->count() - 1; n >= 0; --n) {
+    auto* column = qobject_cast<QSplitter*>(columns_->widget(n));
+    if (column != nullptr && tiles_of(*column).empty()) {
+      column->hide();
+      column->setParent(this);
+      column->deleteLater();
+    }
+  }
+}
+
+void ViewArea::sync_sections() {
+  std::set<Id> missing;
+  for (const Display::ShownSection& one : workbench_.display.sections()) missing.insert(one.id);
+  for (ViewTile* tile : tiles()) {
+    if (tile->section() != 0 && missing.erase(tile->section()) == 0) remove(tile);
+  }
+  for (const Id id : missing) {
+    if (maximised_ != nullptr) maximise(maximised_);
+    ViewTile* tile = make_tile(id);
+    column_for_sections()->addWidget(tile);
+    if (active_ == nullptr) continue;  // all are new
+    activate(tile);
+    tile->view()->setFocus(Qt::OtherFocusReason);
+  }
+}
+
+void ViewArea::remove(ViewTile* tile) {
+  if (maximised_ == tile) maximise(tile);
+  const bool was_active = tile == active_;
+  if (was_active) active_ = nullptr;
+  tile->hide();
+  tile->setParent(this);  // so that it never outlives what it shows
+  tile->deleteLater();
+  drop_empty_columns();
+  const auto left = tiles();
+  if (was_active) activate(left.empty() ? nullptr : left.front());
+  if (was_active && active_ == nullptr) Q_EMIT active_changed();
+}
+
+void ViewArea::focus_moved(QWidget* now) {
+  for (QWidget* widget = now; widget != nullptr; widget = widget->parentWidget()) {
+    auto* tile = qobject_cast<ViewTile*>(widget);
+    if (tile != nullptr && isAncestorOf(tile)) return activate(tile);
+  }
+}
+
+}  // namespace footwall::ui

@@ -1,0 +1,51 @@
+// One view with its slim title: what it shows, linked or not, maximise (double-click, too), close.
+#pragma once
+#include <QFrame>
+
+#include "ui/window/views.h"
+
+class QHBoxLayout;
+class QLabel;
+class QToolButton;
+
+namespace footwall::ui {
+
+class ViewTile final : public QFrame {
+  Q_OBJECT
+
+ public:
+  // section: of Display, or 0 for the scene.
+  ViewTile(Workbench& workbench, const ViewFactories& factories, Id section, QWidget* parent = nullptr);
+
+  Id section() const { return section_; }
+  QWidget* view() const { return view_; }
+  QString title() const;
+  // Whether a program part draws it, or a label says that there is none.
+  bool is_built() const { return built_; }
+  void set_active(bool active);
+
+ Q_SIGNALS:
+  void maximise_asked();
+  void close_asked();
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void add_section_controls(QHBoxLayout& bar);
+  void add_scene_controls(QHBoxLayout& bar);
+  void update_title();
+
+  Workbench& workbench_;
+  Id section_ = 0;
+  bool built_ = false;
+  QWidget* bar_ = nullptr;
+  QLabel* title_ = nullptr;
+  QToolButton* volume_ = nullptr;
+  QToolButton* linked_ = nullptr;
+  QToolButton* perspective_ = nullptr;
+  QToolButton* exaggeration_ = nullptr;
+  QWidget* view_ = nullptr;
+};
+
+}  // namespace footwall::ui

@@ -1,0 +1,52 @@
+#include "ui/window/views.h"
+
+#include <QWidget>
+
+#if __has_include("ui/scene3d/scene_view.h")
+#include "ui/scene3d/scene_view.h"
+#define FOOTWALL_HAS_SCENE 1
+#endif
+#if __has_include("ui/section/section_view.h")
+#include "ui/section/section_view.h"
+#define FOOTWALL_HAS_SECTION 1
+#endif
+
+namespace footwall::ui {
+
+ViewFactories built_views() {
+  ViewFactories views;
+#ifdef FOOTWALL_HAS_SECTION
+  views.section = [](Workbench& workbench, Id section, QWidget* parent) -> QWidget* {
+    return new SectionView(workbench, section, parent);
+  };
+#endif
+#ifdef FOOTWALL_HAS_SCENE
+  views.scene = [](Workbench& workbench, QWidget* parent) -> QWidget* {
+    return new SceneView(workbench, parent);
+  };
+  views.camera = [](const QWidget& scene) { return static_cast<const SceneView&>(scene).camera_text(); };
+  views.set_camera = [](QWidget& scene, const QString& camera) {
+    return static_cast<SceneView&>(scene).set_camera_text(camera);
+  };
+  // A view from the north looks south.
+  views.look_from = [](QWidget& scene, ViewFactories::From side) {
+    using From = ViewFactories::From;
+    const std::map<From, StandardView> views_of{
+        {From::kTop, StandardView::kTop},   {From::kNorth, StandardView::kSouth},
+        {From::kEast, StandardView::kWest}, {From::kSouth, StandardView::kNorth},
+        {From::kWest, StandardView::kEast}, {From::kOblique, StandardView::kOblique}};
+    static_cast<SceneView&>(scene).look(views_of.at(side));
+  };
+  views.write_picture = [](QWidget& scene, const QString& path, int width) {
+    const double scale = static_cast<double>(width) / std::max(1, scene.width());
+    QString problem;
+    const QSize size(width, static_cast<int>(std::lround(scene.height() * scale)));
+    const bool done = static_cast<SceneView&>(scene).export_png(path, size, scale, &problem);
+    return done ? QString() : problem.isEmpty() ? QObject::tr("cannot write %1").arg(path) : problem;
+  };
+  views.is_settled = [](const QWidget& scene) { return static_cast<const SceneView&>(scene).is_settled(); };
+#endif
+  return views;
+}
+
+}  // namespace footwall::ui
