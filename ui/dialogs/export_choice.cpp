@@ -19,12 +19,16 @@ QString number(std::int64_t n) {
   return QLocale::c().toString(static_cast<qlonglong>(n));
 }
 
+QString faults_text(std::int64_t faults) {
+  return faults == 1 ? tr("1 fault") : tr("%1 faults").arg(number(faults));
+}
+
 Exported faces_into(const project::Project& project, const ExportChoice& choice) {
   const tasks::FacesExported done =
       tasks::export_faces(project, choice.file.toStdString(), choice.fault, choice.run);
   Exported said;
-  said.text = tr("%1 faces of %2 faults, %3")
-                  .arg(number(done.faces), number(done.faults),
+  said.text = tr("%1 faces of %2, %3")
+                  .arg(number(done.faces), faults_text(done.faults),
                        done.run.empty() ? tr("no statistics yet")
                                         : tr("statistics of %1").arg(QString::fromStdString(done.run)));
   for (const std::string& fault : done.stale) {
@@ -43,8 +47,8 @@ Exported sticks_into(const project::Project& project, const ExportChoice& choice
   const tasks::SticksExported done =
       tasks::export_sticks(project, choice.file.toStdString(), choice.stick_format, what);
   Exported said;
-  said.text = tr("%1 pillars of %2 faults, %3 nodes")
-                  .arg(number(done.pillars), number(done.faults), number(done.nodes));
+  said.text = tr("%1 pillars of %2, %3 nodes")
+                  .arg(number(done.pillars), faults_text(done.faults), number(done.nodes));
   for (const std::string& renamed : done.renamed) {
     said.notices += tr("renamed: %1").arg(QString::fromStdString(renamed));
   }

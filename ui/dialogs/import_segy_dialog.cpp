@@ -61,15 +61,17 @@ ImportSegyDialog::ImportSegyDialog(const QString& file, Workbench* workbench, QW
   connect(&pause_, &QTimer::timeout, this, &ImportSegyDialog::ask);
   connect(form_, &SegyFieldForm::changed, this, &ImportSegyDialog::fields_changed);
   connect(&looker_, &SegyLooker::looked, this, &ImportSegyDialog::show_look);
-  connect(&looker_, &SegyLooker::failed, this, [this](const QString& message, const QString& hint) {
-    look_.reset();
-    refusal_ = hint.isEmpty() ? message : message + QStringLiteral(": ") + hint;
-    reading_ = false;
-    map_->show_look(nullptr);
-    line_->show_look(nullptr, unit());
-    show_state();
-    Q_EMIT looked();
-  });
+  connect(&looker_, &SegyLooker::failed, this,
+          [this](quint64 request, const QString& message, const QString& hint) {
+            if (request != asked_ || pause_.isActive()) return;  // of fields that are no more
+            look_.reset();
+            refusal_ = hint.isEmpty() ? message : message + QStringLiteral(": ") + hint;
+            reading_ = false;
+            map_->show_look(nullptr);
+            line_->show_look(nullptr, unit());
+            show_state();
+            Q_EMIT looked();
+          });
   connect(&looker_, &SegyLooker::progressed, this, [this](double fraction) {
     if (reading_) progress_->setValue(static_cast<int>(1000 * fraction));
   });
@@ -221,7 +223,7 @@ void ImportSegyDialog::fields_changed(bool changes_look) {
 void ImportSegyDialog::ask() {
   try {
     const segy::Options options = options_of(form_->fields());
-    looker_.look(options);
+    asked_ = looker_.look(options);
   } catch (const Error&) {
     reading_ = false;  // show_state() says what is wrong with the fields
   }
@@ -233,7 +235,7 @@ void ImportSegyDialog::show_look(std::shared_ptr<const SegyLook> look) {
   look_ = std::move(look);
   refusal_.clear();
   if (!same_file) {
-    reading_ = pause_.isActive();
+    reading_ = pause_.isActive() || look_->request != asked_;
     show_findings();
   }
   map_->show_look(look_);
@@ -308,6 +310,7 @@ void ImportSegyDialog::show_state() {
   missing.removeDuplicates();
   message_->setText(missing.join(QStringLiteral("; ")));
   import_->setText(import_text(known));
+  import_->setMinimumWidth(fontMetrics().horizontalAdvance(import_->text()) + 32);
   import_->setEnabled(missing.isEmpty() && job_ == 0);
   form_->setEnabled(job_ == 0);
   progress_->setVisible(reading_ || job_ != 0);

@@ -63,10 +63,11 @@ class ImportSegyDialog final : public QDialog {
   Workbench* workbench_;
   SegyLooker looker_;
   std::shared_ptr<const SegyLook> look_;
-  bool reading_ = true;    // the look shown is not of the fields shown
-  QString refusal_;        // of the last look, where there is none
-  bool of_inline_ = true;  // the preview
-  Jobs jobs_;              // of an import into a new project
+  std::uint64_t asked_ = 0;  // the newest look
+  bool reading_ = true;      // the look shown is not of the fields shown
+  QString refusal_;          // of the last look, where there is none
+  bool of_inline_ = true;    // the preview
+  Jobs jobs_;                // of an import into a new project
   int job_ = 0;
   QTimer pause_;  // after the last key
 

@@ -17,13 +17,12 @@ SegyLooker::~SegyLooker() {
   thread_.join();
 }
 
-void SegyLooker::look(const formats::segy::Options& options) {
-  {
-    const std::scoped_lock lock(mutex_);
-    options_ = options;
-    job_.cancel();
-  }
+std::uint64_t SegyLooker::look(const formats::segy::Options& options) {
+  const std::scoped_lock lock(mutex_);
+  options_ = options;
+  job_.cancel();
   wanted_.notify_one();
+  return ++last_request_;
 }
 
 void SegyLooker::show_line(bool of_inline, std::optional<std::int64_t> index) {
@@ -41,6 +40,7 @@ void SegyLooker::work() {
     std::unique_lock lock(mutex_);
     wanted_.wait(lock, [this] { return ending_ || options_ || line_wanted_; });
     if (ending_) return;
+    const std::uint64_t request = last_request_;
     const auto options = std::exchange(options_, std::nullopt);
     line_wanted_ = false;
     const bool of_inline = of_inline_;
@@ -52,30 +52,34 @@ void SegyLooker::work() {
     const JobContext job = job_;
     lock.unlock();
     try {
-      look_once(options, of_inline, index, job);
+      look_once(options, request, of_inline, index, job);
     } catch (const Error& error) {
       if (error.code() == ErrorCode::kCancelled) continue;  // for a newer request, or the end
       QMetaObject::invokeMethod(
           this,
-          [this, message = QString::fromStdString(error.message()),
-           hint = QString::fromStdString(error.hint())] { Q_EMIT failed(message, hint); },
+          [this, request, message = QString::fromStdString(error.message()),
+           hint = QString::fromStdString(error.hint())] { Q_EMIT failed(request, message, hint); },
           Qt::QueuedConnection);
     } catch (const std::exception& error) {
       QMetaObject::invokeMethod(
-          this, [this, message = QString::fromUtf8(error.what())] { Q_EMIT failed(message, QString()); },
+          this,
+          [this, request, message = QString::fromUtf8(error.what())] {
+            Q_EMIT failed(request, message, QString());
+          },
           Qt::QueuedConnection);
     }
   }
 }
 
-void SegyLooker::look_once(const std::optional<formats::segy::Options>& options, bool of_inline,
-                           std::optional<std::int64_t> index, const JobContext& job) {
+void SegyLooker::look_once(const std::optional<formats::segy::Options>& options, std::uint64_t request,
+                           bool of_inline, std::optional<std::int64_t> index, const JobContext& job) {
+  if (options) survey_.reset();  // where this fails, no line is shown of the file as it was
   if (options) survey_ = std::make_shared<const formats::segy::SurveyLook>(file_, *options, job);
   if (!survey_) return;
   const auto& axis = of_inline ? survey_->found().inlines : survey_->found().crosslines;
   const std::int64_t middle = axis ? axis->count / 2 : 0;
   auto look = std::make_shared<const SegyLook>(
-      SegyLook{survey_, survey_->line(of_inline, index.value_or(middle), job)});
+      SegyLook{request, survey_, survey_->line(of_inline, index.value_or(middle), job)});
   QMetaObject::invokeMethod(
       this, [this, look = std::move(look)] { Q_EMIT looked(look); }, Qt::QueuedConnection);
 }

@@ -14,6 +14,7 @@
 namespace footwall::ui {
 
 struct SegyLook {
+  std::uint64_t request = 0;  // the look() that it answers; of a line, the one before it
   std::shared_ptr<const formats::segy::SurveyLook> survey;
   formats::segy::LinePreview line;
 };
@@ -26,20 +27,21 @@ class SegyLooker final : public QObject {
   // Cancels what is under way and waits for it.
   ~SegyLooker() override;
 
-  // The newest request wins; one under way is cancelled.
-  void look(const formats::segy::Options& options);
+  // The newest request wins; one under way is cancelled. Returns its number: an answer to an older one may
+  // still be on its way.
+  std::uint64_t look(const formats::segy::Options& options);
   // Another line of the file as it was looked at last; no second pass over the headers. No index: the middle.
   void show_line(bool of_inline, std::optional<std::int64_t> index);
 
  Q_SIGNALS:
   void looked(std::shared_ptr<const footwall::ui::SegyLook> look);
   // The file cannot be read at all, or the options cannot be.
-  void failed(const QString& message, const QString& hint);
+  void failed(quint64 request, const QString& message, const QString& hint);
   void progressed(double fraction);
 
  private:
   void work();
-  void look_once(const std::optional<formats::segy::Options>& options, bool of_inline,
+  void look_once(const std::optional<formats::segy::Options>& options, std::uint64_t request, bool of_inline,
                  std::optional<std::int64_t> index, const JobContext& job);
 
   const std::filesystem::path file_;
@@ -48,6 +50,7 @@ class SegyLooker final : public QObject {
   std::mutex mutex_;  // all below
   std::condition_variable wanted_;
   std::optional<formats::segy::Options> options_;
+  std::uint64_t last_request_ = 0;
   bool line_wanted_ = false;
   bool of_inline_ = true;
   std::optional<std::int64_t> index_;

@@ -53,7 +53,7 @@ void ExportDialogTest::writes_sticks_of_one_fault() {
   dialog.export_chosen();
   QVERIFY2(exported.size() == 1, qPrintable(dialog.message()));
   const Fault& fault = workbench.document.faults()[0];
-  QVERIFY2(dialog.message().startsWith(QStringLiteral("%1 pillars of 1 faults").arg(fault.pillars.size())),
+  QVERIFY2(dialog.message().startsWith(QStringLiteral("%1 pillars of 1 fault,").arg(fault.pillars.size())),
            qPrintable(dialog.message()));
   QVERIFY(content(file).contains(fault.record.name.c_str()));
   dialog.show();

@@ -23,6 +23,7 @@ class ImportSegyDialogTest final : public QObject {
   void says_what_is_missing();
   void shows_holes_and_duplicates();
   void a_changed_byte_updates_map_and_preview();
+  void the_newest_fields_win();
   void a_bad_byte_is_said_not_read();
   void a_click_on_the_map_chooses_the_line();
   void imports_into_the_open_project();
@@ -133,6 +134,26 @@ void ImportSegyDialogTest::a_changed_byte_updates_map_and_preview() {
   QVERIFY(dialog.look()->survey != before->survey);
   QCOMPARE(dialog.look()->survey->map().rows, std::int64_t{MadeSegy::kCrosslines});
   QCOMPARE(dialog.look()->line.line, 304);
+}
+
+void ImportSegyDialogTest::the_newest_fields_win() {
+  const MadeSegy made;
+  SegyLooker looker(made.path());
+  QSignalSpy looked(&looker, &SegyLooker::looked);
+  segy::Options turned;
+  turned.inline_byte = 193;
+  turned.crossline_byte = 189;
+  std::uint64_t newest = 0;
+  for (int n = 0; n < 20; ++n) newest = looker.look(n % 2 == 0 ? segy::Options() : turned);
+  std::shared_ptr<const SegyLook> last;
+  QVERIFY(QTest::qWaitFor(
+      [&] {
+        if (!looked.empty()) last = looked.back()[0].value<std::shared_ptr<const SegyLook>>();
+        return last && last->request == newest;
+      },
+      kLong));
+  QCOMPARE(last->survey->map().rows, std::int64_t{MadeSegy::kCrosslines});
+  QVERIFY(looked.size() < 20);
 }
 
 void ImportSegyDialogTest::a_bad_byte_is_said_not_read() {

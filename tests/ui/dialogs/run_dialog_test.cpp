@@ -1,9 +1,11 @@
 #include "ui/dialogs/run_dialog.h"
 
+#include <QFile>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTest>
 
+#include "ui/dialogs/export_choice.h"
 #include "ui/dialogs/look.h"
 #include "ui/sample_project.h"
 #include "ui/test_class.h"
@@ -62,6 +64,19 @@ void RunDialogTest::runs_as_a_job_and_attaches() {
   const auto all = workbench.document.project().runs();
   QCOMPARE(all.size(), std::size_t{1});
   QCOMPARE(all[0].name, std::string("first"));
+
+  // The run's faces as a table: a row each, under one of names.
+  ExportChoice choice;
+  choice.run = all[0].id;
+  choice.file = QString::fromStdString(sample.path().string() + ".csv");
+  const Exported exported = export_now(workbench.document.project(), choice, {});
+  QVERIFY2(exported.text.endsWith(QLatin1String("statistics of first")), qPrintable(exported.text));
+  QVERIFY(exported.notices.empty());
+  QFile table(choice.file);
+  QVERIFY(table.open(QIODevice::ReadOnly));
+  const QByteArrayList rows = table.readAll().trimmed().split('\n');
+  QVERIFY(rows.size() > 100);
+  QVERIFY(rows[0].contains("variance"));
 }
 
 void RunDialogTest::a_cancelled_run_leaves_no_run() {
