@@ -7,14 +7,27 @@
 
 namespace footwall::tasks {
 
-FacesExported export_faces(const project::Project& project, const std::filesystem::path& file,
-                           const std::string& fault, std::optional<std::int64_t> run) {
-  const std::string suffix = file.extension().string();
+namespace {
+
+std::string suffix_of(const std::filesystem::path& file) {
+  std::string suffix = file.extension().string();
   if (suffix != ".csv" && suffix != ".vtp" && suffix != ".ts") {
     throw Error(ErrorCode::kUsage, "no format of faces has the suffix '" + suffix + "'",
                 "use .csv, .vtp or .ts");
   }
-  const FaceTables faces = face_tables(project, fault, run, Coordinates::kWorld);
+  return suffix;
+}
+
+}  // namespace
+
+FacesExported export_faces(const project::Project& project, const std::filesystem::path& file,
+                           const std::string& fault, std::optional<std::int64_t> run) {
+  suffix_of(file);  // before the long work
+  return write_faces(face_tables(project, fault, run, Coordinates::kWorld), file);
+}
+
+FacesExported write_faces(const FaceTables& faces, const std::filesystem::path& file) {
+  const std::string suffix = suffix_of(file);
   if (faces.tables.empty()) {
     throw Error(ErrorCode::kInvalid, "there are no faces to export", "pick two pillars on a fault first");
   }

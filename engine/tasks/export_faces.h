@@ -20,4 +20,7 @@ struct FacesExported {
 FacesExported export_faces(const project::Project& project, const std::filesystem::path& file,
                            const std::string& fault, std::optional<std::int64_t> run);
 
+// Its second half, which needs no project and so may run on any thread.
+FacesExported write_faces(const FaceTables& faces, const std::filesystem::path& file);
+
 }  // namespace footwall::tasks

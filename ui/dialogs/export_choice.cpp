@@ -3,6 +3,7 @@
 #include <QCoreApplication>
 #include <QFileInfo>
 #include <QLocale>
+#include <memory>
 
 #include "engine/tasks/export_faces.h"
 #include "engine/tasks/export_sticks.h"
@@ -23,9 +24,8 @@ QString faults_text(std::int64_t faults) {
   return faults == 1 ? tr("1 fault") : tr("%1 faults").arg(number(faults));
 }
 
-Exported faces_into(const project::Project& project, const ExportChoice& choice) {
-  const tasks::FacesExported done =
-      tasks::export_faces(project, choice.file.toStdString(), choice.fault, choice.run);
+Exported faces_into(const tasks::FaceTables& faces, const ExportChoice& choice) {
+  const tasks::FacesExported done = tasks::write_faces(faces, choice.file.toStdString());
   Exported said;
   said.text = tr("%1 faces of %2, %3")
                   .arg(number(done.faces), faults_text(done.faults),
@@ -94,22 +94,25 @@ QStringList stick_format_names() {
   return names;
 }
 
-Exported export_now(const project::Project& project, const ExportChoice& choice,
-                    const WritePicture& write_picture) {
+std::function<Exported()> prepare_export(const project::Project& project, const ExportChoice& choice,
+                                         const WritePicture& write_picture) {
   switch (choice.kind) {
     case ExportChoice::Kind::kCsv:
     case ExportChoice::Kind::kVtp:
-    case ExportChoice::Kind::kTsurf:
-      return faces_into(project, choice);
+    case ExportChoice::Kind::kTsurf: {
+      auto faces = std::make_shared<const tasks::FaceTables>(
+          tasks::face_tables(project, choice.fault, choice.run, tasks::Coordinates::kWorld));
+      return [faces, choice] { return faces_into(*faces, choice); };
+    }
     case ExportChoice::Kind::kSticks:
-      return sticks_into(project, choice);
+      return [said = sticks_into(project, choice)] { return said; };
     case ExportChoice::Kind::kPicture:
       break;
   }
   if (!write_picture)
     throw Error(ErrorCode::kUsage, "there is no view to make a picture of", "open one first");
   write_picture(choice.file);
-  return {tr("picture written"), {}};
+  return [] { return Exported{tr("picture written"), {}}; };
 }
 
 }  // namespace footwall::ui

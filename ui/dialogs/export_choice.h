@@ -34,8 +34,10 @@ struct Exported {
   QString text;         // "3,108 faces of 2 faults, statistics of run 3"
   QStringList notices;  // names that had to change, faults that are stale
 };
-// In the project's thread. Throws what tasks::export_faces(), tasks::export_sticks() and write_picture throw.
-Exported export_now(const project::Project& project, const ExportChoice& choice,
-                    const WritePicture& write_picture);
+// In the project's thread: reads what is to be written, and writes sticks and pictures. What comes back
+// writes the rest, on any thread. Both throw what tasks::export_faces(), tasks::export_sticks() and
+// write_picture throw.
+std::function<Exported()> prepare_export(const project::Project& project, const ExportChoice& choice,
+                                         const WritePicture& write_picture);
 
 }  // namespace footwall::ui

@@ -4,8 +4,10 @@
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QHBoxLayout>
+#include <QPointer>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
+#include <memory>
 #include <utility>
 
 namespace footwall::ui {
@@ -89,6 +91,14 @@ ExportDialog::ExportDialog(Workbench& workbench, WritePicture write_picture, QWi
   connect(browse, &QPushButton::clicked, this, &ExportDialog::browse);
   connect(export_, &QPushButton::clicked, this, &ExportDialog::export_chosen);
   connect(close_, &QPushButton::clicked, this, &QDialog::reject);
+  connect(&workbench.jobs, &Jobs::finished, this,
+          [this](int job, Jobs::State state, const QString& message, const QString& hint) {
+            if (job != job_) return;
+            job_ = 0;
+            export_->setEnabled(true);
+            if (state == Jobs::State::kDone) return;
+            say(hint.isEmpty() ? message : message + QStringLiteral(": ") + hint, QPalette::BrightText);
+          });
   kind_changed();
 }
 
@@ -126,17 +136,32 @@ void ExportDialog::browse() {
   if (!file.isEmpty()) file_->setText(file);
 }
 
+void ExportDialog::say(const QString& text, QPalette::ColorRole role) {
+  message_->setForegroundRole(role);
+  message_->setText(text);
+}
+
 void ExportDialog::export_chosen() {
   const ExportChoice now = choice();
   try {
-    const Exported done = export_now(workbench_.document.project(), now, write_picture_);
-    message_->setForegroundRole(QPalette::WindowText);
-    message_->setText((QStringList(done.text) + done.notices).join(QLatin1Char('\n')));
-    Q_EMIT exported(now.file);
+    const auto write = prepare_export(workbench_.document.project(), now, write_picture_);
+    auto done = std::make_shared<Exported>();
+    const QPointer<ExportDialog> dialog = this;
+    say(tr("writing …"), QPalette::PlaceholderText);
+    export_->setEnabled(false);
+    job_ = workbench_.jobs.start(
+        tr("Export %1").arg(QFileInfo(now.file).fileName()),
+        [write, done](const JobContext&) { *done = write(); },
+        [dialog, done, file = now.file] {
+          if (!dialog) return;
+          dialog->say((QStringList(done->text) + done->notices).join(QLatin1Char('\n')),
+                      QPalette::WindowText);
+          Q_EMIT dialog->exported(file);
+        });
   } catch (const Error& error) {
-    message_->setForegroundRole(QPalette::BrightText);
-    message_->setText(QString::fromStdString(error.hint().empty() ? error.message()
-                                                                  : error.message() + ": " + error.hint()));
+    const QString message = QString::fromStdString(error.message());
+    const QString hint = QString::fromStdString(error.hint());
+    say(hint.isEmpty() ? message : message + QStringLiteral(": ") + hint, QPalette::BrightText);
   }
 }
 

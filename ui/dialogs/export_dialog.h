@@ -28,15 +28,17 @@ class ExportDialog final : public QDialog {
   void exported(const QString& file);
 
  public Q_SLOTS:
-  // The dialog stays open and says what was written.
+  // As a job of the workbench. The dialog stays open and says what was written; the job outlives it.
   void export_chosen();
 
  private:
   void kind_changed();
+  void say(const QString& text, QPalette::ColorRole role);
   void browse();
 
   Workbench& workbench_;
   WritePicture write_picture_;
+  int job_ = 0;  // the export under way
   QComboBox *kind_, *fault_, *run_, *stick_format_;
   QCheckBox* interpolated_;
   QLineEdit* file_;

@@ -5,7 +5,7 @@
 #include <QSignalSpy>
 #include <QTest>
 
-#include "ui/dialogs/export_choice.h"
+#include "ui/dialogs/export_dialog.h"
 #include "ui/dialogs/look.h"
 #include "ui/sample_project.h"
 #include "ui/test_class.h"
@@ -69,7 +69,7 @@ void RunDialogTest::runs_as_a_job_and_attaches() {
   ExportChoice choice;
   choice.run = all[0].id;
   choice.file = QString::fromStdString(sample.path().string() + ".csv");
-  const Exported exported = export_now(workbench.document.project(), choice, {});
+  const Exported exported = prepare_export(workbench.document.project(), choice, {})();
   QVERIFY2(exported.text.endsWith(QLatin1String("statistics of first")), qPrintable(exported.text));
   QVERIFY(exported.notices.empty());
   QFile table(choice.file);
@@ -77,6 +77,12 @@ void RunDialogTest::runs_as_a_job_and_attaches() {
   const QByteArrayList rows = table.readAll().trimmed().split('\n');
   QVERIFY(rows.size() > 100);
   QVERIFY(rows[0].contains("variance"));
+
+  // Through the dialog to where nothing can be written: the job's error is said.
+  ExportDialog failing(workbench, {});
+  failing.findChild<QLineEdit*>(QStringLiteral("file"))->setText(QStringLiteral("/nowhere/at/all.csv"));
+  failing.export_chosen();
+  QTRY_VERIFY_WITH_TIMEOUT(failing.message().contains(QLatin1String("/nowhere/at")), 60'000);
 }
 
 void RunDialogTest::a_cancelled_run_leaves_no_run() {
