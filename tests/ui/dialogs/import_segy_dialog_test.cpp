@@ -1,6 +1,7 @@
 #include "ui/dialogs/import_segy_dialog.h"
 
 #include <QComboBox>
+#include <QDirIterator>
 #include <QSignalSpy>
 #include <QTest>
 
@@ -31,6 +32,7 @@ class ImportSegyDialogTest final : public QObject {
   void makes_a_new_project();
   void a_cancelled_import_leaves_nothing();
   void looks_at_a_real_file();
+  void looks_at_every_real_file_without_harm();
   void says_that_a_file_is_none();
 };
 
@@ -291,6 +293,43 @@ void ImportSegyDialogTest::looks_at_a_real_file() {
   dialog.show();
   QVERIFY(QTest::qWaitForWindowExposed(&dialog));
   keep_picture(dialog, QStringLiteral("import-f3"));
+}
+
+void ImportSegyDialogTest::looks_at_every_real_file_without_harm() {
+  const QString folder = real_segy(QStringLiteral("equinor+segyio"));
+  if (folder.isEmpty()) QSKIP("no ../shared/data: the real SEG-Y is not looked at");
+  int looked = 0, importable = 0;
+  QDirIterator files(folder, {QStringLiteral("*.sgy")}, QDir::Files, QDirIterator::Subdirectories);
+  while (files.hasNext()) {
+    const QString file = files.next();
+    ImportSegyDialog dialog(file, nullptr);
+    dialog.findChild<QLineEdit*>(QStringLiteral("project"))->setText(QStringLiteral("/nowhere/a.footwall"));
+    choose_time_in_ms(dialog);
+    QVERIFY2(QTest::qWaitFor([&] { return !dialog.message().contains(QLatin1String("being read")); }, kLong),
+             qPrintable(file));
+    ++looked;
+    if (!dialog.look()) {
+      QVERIFY(!dialog.can_import());
+      continue;
+    }
+    const auto survey = dialog.look()->survey;
+    QVERIFY2(dialog.can_import() == survey->found().geometry.has_value(),
+             qPrintable(file + dialog.message()));
+    if (!dialog.can_import()) {
+      QVERIFY2(!dialog.message().isEmpty(), qPrintable(file));
+    } else {
+      ++importable;
+      // The map counts what the report counts.
+      std::int64_t holes = 0;
+      for (const segy::Bin bin : survey->map().cells) holes += bin == segy::Bin::kHole ? 1 : 0;
+      QVERIFY2(holes == survey->found().report.missing_bins, qPrintable(file));
+    }
+    dialog.grab();
+    if (file.endsWith(QLatin1String("/small-ps.sgy")))
+      keep_picture(dialog, QStringLiteral("import-prestack"));
+  }
+  QVERIFY(looked > 10);
+  QVERIFY(importable > 5);
 }
 
 void ImportSegyDialogTest::says_that_a_file_is_none() {
