@@ -308,7 +308,10 @@ void ImportSegyDialog::show_state() {
     missing += tr("the new project exists already");
   if (!refusal_.isEmpty()) missing = QStringList(refusal_);
   missing.removeDuplicates();
-  message_->setText(missing.join(QStringLiteral("; ")));
+  QString text = missing.join(QStringLiteral("; "));
+  message_->setText(text.remove(file_ + QStringLiteral(": ")));  // the title names it
+  const bool refused = known != nullptr && known->found().refusal;
+  message_->setToolTip(refused ? QString::fromStdString(known->found().refusal->hint()) : QString());
   import_->setText(import_text(known));
   import_->setMinimumWidth(fontMetrics().horizontalAdvance(import_->text()) + 32);
   import_->setEnabled(missing.isEmpty() && job_ == 0);

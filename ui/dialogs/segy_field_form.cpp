@@ -135,9 +135,10 @@ void SegyFieldForm::show_found(const segy::Report& report, const std::optional<s
   y_byte_->setPlaceholderText(byte_text(report.y_word));
   const SegyFields said = fields();
   const QString unit = said.unit ? QString::fromUtf8(survey::name_of(*said.unit).data()) : QString();
-  interval_->setPlaceholderText(
-      geometry ? QStringLiteral("%1 %2").arg(geometry->interval, 0, 'g', 8).arg(unit).trimmed()
-               : tr("not said by the file"));
+  const double interval = geometry ? geometry->interval : report.interval_us / 1000;
+  interval_->setPlaceholderText(interval > 0
+                                    ? QStringLiteral("%1 %2").arg(interval, 0, 'g', 8).arg(unit).trimmed()
+                                    : tr("not said by the file"));
   format_->setItemText(
       0, report.format_name.empty() ? tr("as the file says") : QString::fromStdString(report.format_name));
   endian_->setItemText(0, tr("%1-endian").arg(QString::fromUtf8(segy::name_of(report.endian).data())));

@@ -104,7 +104,7 @@ void SegyMapView::paintEvent(QPaintEvent*) {
   painter.setPen(palette().color(QPalette::PlaceholderText));
   if (image_.isNull()) {
     painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,
-                     look_ ? tr("no grid: try other byte positions") : tr("reading the headers …"));
+                     look_ ? tr("the line numbers make no map") : tr("reading the headers …"));
     return;
   }
   const QRectF area = map_rect();
