@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
+#include <fstream>
 
 #include "storage/base/error.h"
 #include "storage/base/hash.h"
@@ -133,36 +135,59 @@ project::VolumeRecord list_volume(project::Project& project, const std::string& 
   return record;
 }
 
-project::VolumeRecord add_volume(project::Project& project, const std::string& name,
-                                 const VolumeSource& source, const JobContext& job) {
+PlannedVolume::~PlannedVolume() {
+  if (listed_ || path_.empty()) return;
+  std::error_code ignored;  // what cannot be removed is a file that nobody lists
+  fs::remove(path_, ignored);
+  if (made_folder_) fs::remove(path_.parent_path(), ignored);
+}
+
+std::unique_ptr<PlannedVolume> plan_volume(const project::Project& project, const std::string& name,
+                                           const survey::Geometry& geometry) {
   check_free_name(project, name);  // before the long work, not after it
-  source.geometry.validate();
-  const std::optional<survey::Geometry> survey = project.survey();
+  geometry.validate();
+  std::unique_ptr<PlannedVolume> planned(new PlannedVolume());
+  planned->name_ = name;
+  if (const auto survey = project.survey()) planned->origin_ = origin_in(*survey, geometry);
+
+  std::error_code failure;
+  planned->made_folder_ = fs::create_directories(project.volumes_folder(), failure);
+  if (failure) throw io_error("create", project.volumes_folder(), failure.value());
+  const fs::path path = free_path(project.volumes_folder(), name);
+  if (!std::ofstream(path)) throw io_error("create", path, errno);
+  planned->path_ = path;
+  return planned;
+}
+
+void write_planned(PlannedVolume& planned, const VolumeSource& source, const JobContext& job) {
   volume::WriteOptions options;
   options.geometry = source.geometry;
-  if (survey) options.origin = origin_in(*survey, source.geometry);
+  if (planned.origin_) options.origin = *planned.origin_;
   options.null_value = source.null_value;
   options.role = source.role;
   options.high_is_fault = source.high_is_fault;
   options.source = source.text;
   options.provenance_json = source.provenance_json;
+  volume::write_volume(planned.path_, options, source.fill, job);
+}
 
-  std::error_code failure;
-  const bool made_folder = fs::create_directories(project.volumes_folder(), failure);
-  if (failure) throw io_error("create", project.volumes_folder(), failure.value());
-  const fs::path path = free_path(project.volumes_folder(), name);
-  try {
-    project::VolumeRecord record = record_of(volume::write_volume(path, options, source.fill, job));
-    record.name = name;
-    record.file = project.relative_file(path);
-    if (!survey) project.set_survey(source.geometry, source.provenance_json);
-    record.id = project.add_volume(record);
-    return record;
-  } catch (...) {
-    fs::remove(path, failure);  // not listed, so not kept
-    if (made_folder) fs::remove(project.volumes_folder(), failure);
-    throw;
+project::VolumeRecord list_planned(project::Project& project, PlannedVolume& planned, const VolumeSource& source) {
+  check_free_name(project, planned.name_);
+  const auto survey = project.survey();
+  if (survey.has_value() != planned.origin_.has_value()) {
+    throw Error(ErrorCode::kInvalid, "the project got a survey while the volume was written", "import it again");
   }
+  if (!survey) project.set_survey(source.geometry, source.provenance_json);
+  const project::VolumeRecord record = list_volume(project, planned.name_, planned.path_);
+  planned.listed_ = true;
+  return record;
+}
+
+project::VolumeRecord add_volume(project::Project& project, const std::string& name,
+                                 const VolumeSource& source, const JobContext& job) {
+  const std::unique_ptr<PlannedVolume> planned = plan_volume(project, name, source.geometry);
+  write_planned(*planned, source, job);
+  return list_planned(project, *planned, source);
 }
 
 }  // namespace footwall::tasks

@@ -3,6 +3,7 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,35 @@ struct VolumeSource {
 // Throws kInvalid with the numbers where they do not, or where the name is taken; and what writing throws.
 project::VolumeRecord add_volume(project::Project& project, const std::string& name,
                                  const VolumeSource& source, const JobContext& job);
+
+// The same in three steps, where the project belongs to another thread than the long work. An unlisted file
+// goes with its PlannedVolume.
+class PlannedVolume {
+ public:
+  PlannedVolume(const PlannedVolume&) = delete;
+  PlannedVolume& operator=(const PlannedVolume&) = delete;
+  ~PlannedVolume();
+
+ private:
+  PlannedVolume() = default;
+  friend std::unique_ptr<PlannedVolume> plan_volume(const project::Project&, const std::string&,
+                                                    const survey::Geometry&);
+  friend void write_planned(PlannedVolume&, const VolumeSource&, const JobContext&);
+  friend project::VolumeRecord list_planned(project::Project&, PlannedVolume&, const VolumeSource&);
+  std::string name_;
+  std::filesystem::path path_;  // an empty file until it is written: nobody else takes the place
+  std::optional<survey::Index> origin_;
+  bool made_folder_ = false;
+  bool listed_ = false;
+};
+// 1, the project's thread: checks name and geometry, and takes a place for the file. Throws as add_volume().
+std::unique_ptr<PlannedVolume> plan_volume(const project::Project& project, const std::string& name,
+                                           const survey::Geometry& geometry);
+// 2, any thread, the long work. Throws what writing throws.
+void write_planned(PlannedVolume& planned, const VolumeSource& source, const JobContext& job);
+// 3, the project's thread: lists it. Throws as add_volume() where the project has changed since.
+project::VolumeRecord list_planned(project::Project& project, PlannedVolume& planned,
+                                   const VolumeSource& source);
 
 // Throws kInvalid where the project has a volume of that name, or no volume can be called so.
 void check_free_name(const project::Project& project, const std::string& name);

@@ -1,0 +1,42 @@
+// A run of EXTRACT-ALL with its choices: which volume, which faults, a name; strategy and ranks under
+// "advanced".
+#pragma once
+#include <QComboBox>
+#include <QDialog>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSpinBox>
+#include <QToolButton>
+
+#include "ui/dialogs/run_job.h"
+
+namespace footwall::ui {
+
+class RunDialog final : public QDialog {
+  Q_OBJECT
+
+ public:
+  // The active fault and the volume shown come first.
+  explicit RunDialog(Workbench& workbench, QWidget* parent = nullptr);
+
+  tasks::ExtractOptions options() const;
+
+ Q_SIGNALS:
+  // Of the job; the dialog is closed.
+  void started(int job);
+
+ public Q_SLOTS:
+  void run();
+
+ private:
+  QWidget* advanced();
+
+  Workbench& workbench_;
+  QComboBox *volume_, *fault_, *exchange_, *balance_;
+  QLineEdit* name_;
+  QSpinBox* ranks_;
+  QToolButton* more_;
+  QLabel* message_;
+};
+
+}  // namespace footwall::ui
