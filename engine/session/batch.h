@@ -32,7 +32,7 @@ struct BatchOptions {
   int threads = 0;               // of each rank; 0 = as the job says
   bool one_writer = false;       // rank 0 writes all parts: where no folder is seen by all ranks
   // On rank 0, once a part is on disk. What it throws ends the job on all ranks.
-  std::function<void(const std::filesystem::path&)> part_written;
+  std::function<void(const std::filesystem::path&)> part_written = {};
 };
 
 // Whether a file of this name in the output folder is one that a later run goes on with: a part, or the log.

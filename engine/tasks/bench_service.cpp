@@ -131,7 +131,8 @@ class Bench {
     const std::filesystem::path volume = folder_.path() / "hashed.h5";
     write_hashed_volume(volume, kBenchDims, job_.part(0, 0.02));
     service::LocalEngine engine(bench_.launch, {});
-    EngineClient& client = engine.client(job_);
+    const std::shared_ptr<EngineClient> held = engine.client(job_);
+    EngineClient& client = *held;
     const JobContext making = job_.part(0.02, 0.05);
     LiveMoves moves(client, open(client, volume, making.part(0, 0.5)), bench_.faces, making.part(0.5, 1));
     for (std::int64_t n = 0; n < kWarmUp; ++n) moves.move_one();
@@ -249,7 +250,8 @@ class Bench {
       expected = tiles;
     });
     service::LocalEngine engine(bench_.launch, {});
-    EngineClient& client = engine.client(job_);
+    const std::shared_ptr<EngineClient> held = engine.client(job_);
+    EngineClient& client = *held;
     const std::string volume = open(client, path, drawing);
     const double first = draw(client, volume, 0);
     if (tiles != expected) {

@@ -332,7 +332,8 @@ std::unique_ptr<EngineClient::LiveStream> EngineClient::live(
   v1::LiveRequest first;
   first.set_volume(volume);
   *first.mutable_options() = options;
-  return open_live_stream(*state_->stub, state_->connection.token, std::move(first), std::move(answer),
+  return open_live_stream(state_->channel, *state_->stub, state_->connection.token, std::move(first),
+                          std::move(answer),
                           [connection = state_->connection] { return answers(connection); });
 }
 
@@ -340,14 +341,15 @@ std::string EngineClient::run_task(const v1::Task& task, std::span<const InputFi
                                    const std::function<void(const v1::FilePiece&)>& out,
                                    const JobContext& job) {
   job.check();
-  grpc::ClientContext context;
-  state_->prepare(context);
-  Conversation<v1::TaskInput, v1::TaskOutput> talk(
-      context, [&](auto* reactor) { state_->stub->async()->RunTask(&context, reactor); },
+  const auto talk = Conversation<v1::TaskInput, v1::TaskOutput>::open(
+      state_->channel, [this](grpc::ClientContext& context) { state_->prepare(context); },
+      [this](grpc::ClientContext* context, auto* reactor) {
+        state_->stub->async()->RunTask(context, reactor);
+      },
       [this] { return answers(state_->connection); });
   // A message is sent only when those before it are nearly through, so that large files are never held whole.
   const auto send = [&](v1::TaskInput message) {
-    return talk.send(std::move(message)) && talk.wait_for_room(1, job);
+    return talk->send(std::move(message)) && talk->wait_for_room(1, job);
   };
   v1::TaskInput first;
   *first.mutable_task() = task;
@@ -375,16 +377,16 @@ std::string EngineClient::run_task(const v1::Task& task, std::span<const InputFi
     start.set_start(true);
     send(std::move(start));
   }
-  talk.send_no_more();
+  talk->send_no_more();
   std::string result;
   v1::TaskOutput output;
-  while (talk.next(output, job)) {
+  while (talk->next(output, job)) {
     if (output.has_progress()) take_progress(output.progress(), job);
     if (!output.has_file()) continue;
     if (output.file().name() == "result.json") result += output.file().bytes();
     out(output.file());
   }
-  talk.throw_unless_ok();
+  talk->throw_unless_ok();
   return result;
 }
 

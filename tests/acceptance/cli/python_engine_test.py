@@ -139,7 +139,7 @@ class PythonEngine(FootwallTest):
         numpy.testing.assert_array_equal(values, whole[tuple(indices.T)])
         engine.extract()  # of the whole, beside it
         self.assertEqual(len(engine.extract("part", changed_only=True)), 0)
-        job = self.footwall("extract", self.project.path, "--volume", "part", "--engine", f"@{engine._folder.name}/engine.json")
+        job = self.footwall("extract", self.project.path, "--volume", "part", "--engine", f"@{engine._file}")
         self.assertEqual(job["checksum"], own["checksum"])
 
     def test_live_numbers_are_those_of_a_whole_extraction(self):

@@ -13,12 +13,15 @@
 #include <mutex>
 
 #include "engine/service/client/detail/call_end.h"
+#include "engine/service/client/detail/left_calls.h"
 #include "engine/service/words_on_the_wire.h"
 
 namespace footwall::service {
 
 // How soon a cancel of the JobContext is seen.
 inline constexpr std::chrono::milliseconds kCancelInterval{20};
+// How long a cancelled call takes to end where nothing hangs, at most.
+inline constexpr std::chrono::milliseconds kTimeToEnd{500};
 
 // What both kinds have in common: one message at a time is received ahead, and kept until asked for. Reactor:
 // the gRPC class that receives Replies.
@@ -29,7 +32,7 @@ class Answers : public Reactor {
   Answers(const Answers&) = delete;
   Answers& operator=(const Answers&) = delete;
 
-  // The next message; false when there is none, and the call has ended.
+  // The next message; false when there is none, and the call has ended or was cancelled.
   bool next(Reply& to, const JobContext& job) {
     std::unique_lock lock(mutex_);
     heard_ = Clock::now();
@@ -40,8 +43,8 @@ class Answers : public Reactor {
         return true;
       }
       if (received_) receive();
-      if (done_) return false;
-      if (!told_ && job.cancelled()) tell();
+      if (done_ || told_) return false;
+      if (job.cancelled()) tell();
       changed_.wait_for(lock, kCancelInterval);
       look_for_silence(lock);
     }
@@ -53,9 +56,10 @@ class Answers : public Reactor {
     if (told_) throw Error(ErrorCode::kCancelled, "cancelled");
     service::throw_unless_ok(status_, context_);
   }
+  // Nothing more comes.
   bool done() const {
     const std::unique_lock lock(mutex_);
-    return done_;
+    return done_ || told_;
   }
   void cancel() {
     const std::unique_lock lock(mutex_);
@@ -64,7 +68,7 @@ class Answers : public Reactor {
   // The call's error, where it has ended with one.
   void throw_if_failed() {
     const std::unique_lock lock(mutex_);
-    if (done_ && silent_) throw silent_engine();
+    if (silent_) throw silent_engine();
     if (done_) service::throw_unless_ok(status_, context_);
   }
 
@@ -74,6 +78,8 @@ class Answers : public Reactor {
     if (!good) {
       ended_ = true;
       this->RemoveHold();
+    } else if (left_) {
+      receive();
     }
     changed_.notify_all();
   }
@@ -100,9 +106,9 @@ class Answers : public Reactor {
     silent_ = true;
     tell();
   }
-  // Whether something that we send is held up, after so long without a message: gRPC's own pings are, too,
-  // then, and it never says so.
-  virtual bool is_held_up(Clock::duration /*quiet*/) const { return false; }
+  // Whether something that we sent may be held up, after so long without a message: gRPC's own pings are,
+  // too, then, and it never says so.
+  virtual bool is_held_up(Clock::duration /*quiet*/) { return false; }
   // Asked then, on the thread that waits: whether the other side answers elsewhere.
   virtual bool still_there() { return true; }
 
@@ -122,6 +128,22 @@ class Answers : public Reactor {
       if (received_) receive();
       changed_.wait(lock);
     }
+  }
+  // Cancels the call, if need be; whether its last callback has come, for which this waits a moment.
+  bool ends_soon() {
+    std::unique_lock lock(mutex_);
+    const auto latest = Clock::now() + (silent_ ? Clock::duration(0) : kTimeToEnd);
+    while (!done_) {
+      tell();
+      if (received_) receive();
+      if (changed_.wait_until(lock, latest) == std::cv_status::timeout) break;
+    }
+    left_ = !done_;
+    return done_;
+  }
+  bool has_come_to_an_end() const {
+    const std::unique_lock lock(mutex_);
+    return done_;
   }
   std::mutex& mutex() { return mutex_; }
   std::condition_variable& changed() { return changed_; }
@@ -145,6 +167,7 @@ class Answers : public Reactor {
   bool ended_ = false;   // no message comes any more
   bool told_ = false;    // to cancel
   bool silent_ = false;  // why: nobody answers
+  bool left_ = false;    // nobody asks for messages any more
   Clock::time_point heard_ = Clock::now();
   bool done_ = false;
   grpc::Status status_;
@@ -164,23 +187,40 @@ class AnswerStream final : public Answers<grpc::ClientReadReactor<Reply>, Reply>
 };
 
 template <class Request, class Reply>
-class Conversation final : public Answers<grpc::ClientBidiReactor<Request, Reply>, Reply> {
+class Conversation final : public Answers<grpc::ClientBidiReactor<Request, Reply>, Reply>, public LeftCall {
  public:
   using Base = Answers<grpc::ClientBidiReactor<Request, Reply>, Reply>;
-  // still_there: whether the other side answers a call of its own, which it decides soon.
-  template <class Start>
-  Conversation(grpc::ClientContext& context, const Start& start, std::function<bool()> still_there)
-      : Base(context), still_there_(std::move(still_there)) {
-    start(this);
-    this->begin();
+  struct Leave {
+    void operator()(Conversation* conversation) const {
+      std::unique_ptr<LeftCall> call(conversation);
+      if (!conversation->ends_soon()) keep_until_over(std::move(call));
+    }
+  };
+  using Pointer = std::unique_ptr<Conversation, Leave>;
+
+  // channel: which has to be there as long as the call. prepare(context): token and the like. start(context,
+  // reactor): hands the call to gRPC. still_there: whether the other side answers a call of its own, which it
+  // decides soon.
+  template <class Prepare, class Start>
+  static Pointer open(std::shared_ptr<grpc::Channel> channel, const Prepare& prepare, const Start& start,
+                      std::function<bool()> still_there) {
+    auto context = std::make_unique<grpc::ClientContext>();
+    prepare(*context);
+    Pointer made(new Conversation(std::move(channel), std::move(context), std::move(still_there)));
+    start(made->context_.get(), made.get());
+    made->begin();
+    return made;
   }
-  ~Conversation() override { this->end(); }
+
+  ~Conversation() override = default;
+  bool is_over() const override { return this->has_come_to_an_end(); }
 
   // Puts a message on its way; false where nobody listens any more.
   bool send(Request message) {
     const std::unique_lock lock(this->mutex());
     if (this->ended() || broken_ || last_) return false;
     waiting_.push_back(std::move(message));
+    sent_ = true;
     go_on();
     return true;
   }
@@ -202,8 +242,11 @@ class Conversation final : public Answers<grpc::ClientBidiReactor<Request, Reply
   }
 
  protected:
-  bool is_held_up(typename Base::Clock::duration quiet) const override {
-    return busy_ && quiet > std::chrono::milliseconds(kPingMilliseconds);
+  // A message that gRPC calls written may still stand before a full socket: so it is asked once after
+  // everything that was sent, and on and on where the end is waited for.
+  bool is_held_up(typename Base::Clock::duration quiet) override {
+    if (quiet <= std::chrono::milliseconds(kPingMilliseconds)) return false;
+    return std::exchange(sent_, false) || busy_ || last_;
   }
   bool still_there() override { return still_there_(); }
 
@@ -229,8 +272,18 @@ class Conversation final : public Answers<grpc::ClientBidiReactor<Request, Reply
     }
   }
 
+  Conversation(std::shared_ptr<grpc::Channel> channel, std::unique_ptr<grpc::ClientContext> context,
+               std::function<bool()> still_there)
+      : Base(*context),
+        channel_(std::move(channel)),
+        context_(std::move(context)),
+        still_there_(std::move(still_there)) {}
+
+  const std::shared_ptr<grpc::Channel> channel_;
+  const std::unique_ptr<grpc::ClientContext> context_;
   std::function<bool()> still_there_;
   std::deque<Request> waiting_;  // the first is being sent
+  bool sent_ = false;            // since the other side was asked whether it is there
   bool busy_ = false;
   bool broken_ = false;
   bool last_ = false;
