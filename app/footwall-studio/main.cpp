@@ -82,7 +82,7 @@ int run(QApplication& application, const Options& options) {
     footwall::ui::apply_theme(footwall::ui::remembered_theme());
   }
   footwall::ui::MainWindow window(
-      {.ranks = options.ranks, .connection = QString::fromStdString(options.engine)});
+      {.ranks = options.ranks, .connection = QString::fromStdString(options.engine), .starts_at_once = true});
   window.resize(kWidth, kHeight);
   window.show();
   if (!options.project.empty()) window.take_file(QString::fromStdString(options.project));

@@ -77,16 +77,16 @@ EngineLink::State EngineLink::state() const {
 QString EngineLink::state_text() const {
   switch (private_->state) {
     case State::kOff:
-      return tr("engine off");
+      return tr("off");
     case State::kStarting:
-      return tr("engine starts");
+      return tr("starts");
     case State::kReady:
     case State::kBusy:
-      return tr("engine: %1").arg(private_->text);
+      return private_->text;
     case State::kLost:
       break;
   }
-  return tr("engine stopped: %1").arg(private_->text);
+  return tr("stopped: %1").arg(private_->text);
 }
 
 int EngineLink::ranks() const {

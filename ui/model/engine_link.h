@@ -57,7 +57,8 @@ class EngineLink final : public QObject {
   enum class State { kOff, kStarting, kReady, kBusy, kLost };
   struct Options {
     int ranks = 0;       // 0: half the cores, at least one
-    QString connection;  // "@FILE" or an address; empty: a local engine
+    QString connection = {};  // "@FILE" or an address; empty: a local engine
+    bool starts_at_once = false;  // as soon as there is a volume that statistics can be of
   };
 
   EngineLink(Document& document, const Options& options, QObject* parent = nullptr);
@@ -65,7 +66,7 @@ class EngineLink final : public QObject {
   ~EngineLink() override;
 
   State state() const;
-  // "2 ranks", "engine stopped: killed by signal 9": for the status bar and its banner.
+  // "2 ranks", "stopped: killed by signal 9": what stands behind "engine:" in the status line.
   QString state_text() const;
   int ranks() const;
   // How to reach the engine that runs; nothing where none does.

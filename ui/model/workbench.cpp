@@ -1,6 +1,8 @@
 #include "ui/model/workbench.h"
 
 #include <QJsonDocument>
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "storage/base/log.h"
@@ -9,6 +11,19 @@ namespace footwall::ui {
 namespace {
 
 constexpr const char* kDisplaySetting = "studio.display";
+
+// Heights are drawn so that the survey is a third as high as it is wide, in whole steps; true where it is already.
+double fitting_exaggeration(const survey::Geometry& survey) {
+  const auto corner = [&](double i, double j) { return survey.world_of({i, j, 0}); };
+  const survey::Index dims = survey.dims();
+  const survey::WorldPoint a = corner(0, 0);
+  const survey::WorldPoint b = corner(static_cast<double>(dims[0] - 1), static_cast<double>(dims[1] - 1));
+  const double width = survey.horizontal_metres(std::hypot(b.x - a.x, b.y - a.y));
+  constexpr double kVelocity = 2000;  // m/s: a millisecond is a metre, as in the scene without a velocity
+  const double height = std::abs(survey.vertical_metres(static_cast<double>(dims[2]) * survey.interval, kVelocity));
+  if (!(width > 0) || !(height > 0)) return 1;
+  return std::clamp(std::round(width / (3 * height)), 1.0, 20.0);
+}
 
 // What a new project shows: the middle inline, crossline and slice.
 void show_middle_sections(const Document& document, Display& display) {
@@ -31,11 +46,18 @@ Workbench::Workbench(project::Project opened, const EngineLink::Options& engine_
       surfaces(document, &engine) {
   const auto stored = document.project().setting(kDisplaySetting);
   if (stored) display.from_json(QJsonDocument::fromJson(QByteArray::fromStdString(*stored)).object());
+  if (!stored && document.survey()) display.set_exaggeration(fitting_exaggeration(*document.survey()));
   if (display.sections().empty()) show_middle_sections(document, display);
+  QObject::connect(&display, &Display::samples_changed, &engine, [this] {
+    if (display.volume() != engine.volume()) engine.set_volume(display.volume());
+  });
+  if (display.volume() != 0) engine.set_volume(display.volume());
+  if (engine_options.starts_at_once && display.volume() != 0) engine.start();
 }
 
 Workbench::~Workbench() {
   if (document.read_only()) return;
+  surfaces.store_live_run();
   try {
     const QByteArray json = QJsonDocument(display.to_json()).toJson(QJsonDocument::Compact);
     document.store().set_setting(kDisplaySetting, json.toStdString());

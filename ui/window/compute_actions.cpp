@@ -1,4 +1,5 @@
 #include "ui/window/action_groups.h"
+#include "ui/window/dialogs.h"
 #include "ui/window/main_window.h"
 
 namespace footwall::ui {
@@ -39,6 +40,12 @@ std::vector<ActionRow> compute_actions() {
       {"compute.update-all", M::kCompute, QT_TRANSLATE_NOOP("Actions", "&Update all"), "Ctrl+U F5", "update",
        QT_TRANSLATE_NOOP("Actions", "Statistics of all faces of all faults, from the volume shown"),
        kProject | kSurvey | kVolume, update_all},
+      {"compute.run", M::kCompute, QT_TRANSLATE_NOOP("Actions", "&Run…"), "Ctrl+Alt+U", "update",
+       QT_TRANSLATE_NOOP("Actions", "Statistics of all or selected faults as a run that is kept, by a job"),
+       kProject | kWriting | kSurvey | kVolume | kFault, open_run_dialog},
+      {"compute.isosurface", M::kCompute, QT_TRANSLATE_NOOP("Actions", "&Isosurface…"), "Ctrl+Alt+O", "volume",
+       QT_TRANSLATE_NOOP("Actions", "A surface of one value of the volume shown, which follows a slider"),
+       kProject | kSurvey | kVolume, [](MainWindow& window) { open_isosurface_dialog(window, 0); }},
       {"compute.engine", M::kCompute, QT_TRANSLATE_NOOP("Actions", "&Engine"), "Ctrl+Alt+E", "engine",
        QT_TRANSLATE_NOOP("Actions", "Start the engine, which computes colours, or stop it"), kProject,
        switch_engine, runs, true},

@@ -9,6 +9,7 @@
 #include "engine/tasks/new_project.h"
 #include "storage/formats/stick_formats.h"
 #include "ui/window/action_groups.h"
+#include "ui/window/dialogs.h"
 #include "ui/window/banner.h"
 #include "ui/window/main_window.h"
 #include "ui/window/view_area.h"
@@ -46,7 +47,7 @@ void new_from_segy(MainWindow& window) {
   const QString path =
       QFileDialog::getOpenFileName(&window, translated("New from SEG-Y"), projects_folder(),
                                    translated("SEG-Y (*.sgy *.segy *.SGY *.SEGY);;All files (*)"));
-  if (!path.isEmpty()) window.take_file(path);
+  if (!path.isEmpty()) import_volume(window, path, true);
 }
 
 // In the user's documents, under the first name that is free.
@@ -153,6 +154,9 @@ std::vector<ActionRow> file_actions() {
       {"file.export-sticks", M::kFile, QT_TRANSLATE_NOOP("Actions", "&Export fault sticks…"), "Ctrl+E",
        "export", QT_TRANSLATE_NOOP("Actions", "Write all picked pillars as fault sticks"), kProject,
        export_sticks},
+      {"file.export", M::kFile, QT_TRANSLATE_NOOP("Actions", "E&xport…"), "Ctrl+Shift+E", "export",
+       QT_TRANSLATE_NOOP("Actions", "Write faces with their statistics, sticks or a picture"), kProject,
+       open_export_dialog},
       {"file.picture", M::kFile, QT_TRANSLATE_NOOP("Actions", "Save &picture…"), "Ctrl+P", "picture",
        QT_TRANSLATE_NOOP("Actions", "Write a picture of the window as PNG"), kNothing, save_picture},
       {"file.scene-picture", M::kFile, QT_TRANSLATE_NOOP("Actions", "Save picture of the scene…"),

@@ -24,6 +24,7 @@
 #include "ui/window/banner.h"
 #include "ui/window/docks.h"
 #include "ui/window/file_kinds.h"
+#include "ui/window/dialogs.h"
 #include "ui/window/import_files.h"
 #include "ui/window/start_page.h"
 #include "ui/window/status_line.h"
@@ -292,7 +293,7 @@ void MainWindow::show_engine_banner() {
       QStringLiteral("engine"),
       {.kind = BannerArea::Kind::kWarning,
        .text =
-           tr("Engine stopped: %1. Colours are as of the last answer.").arg(workbench_->engine.state_text()),
+           tr("Engine %1. Colours are as of the last answer.").arg(workbench_->engine.state_text()),
        .buttons = {{tr("Restart"), [this] {
                       if (workbench_) workbench_->engine.start();
                     }}}});
@@ -361,9 +362,7 @@ void MainWindow::take_file(const QString& path) {
       open_project(path);
       return;
     case FileKind::kVolume:
-      tell_failure(tr("%1 is a volume, and the import dialog for volumes is not part of this program")
-                       .arg(QFileInfo(path).fileName()),
-                   tr("footwall new, or footwall import volume, takes it on the command line"));
+      import_volume(*this, path, workbench_ == nullptr);
       return;
     case FileKind::kSticks:
     case FileKind::kSurface:

@@ -2,25 +2,23 @@
 
 #include <QWidget>
 
-#if __has_include("ui/scene3d/scene_view.h")
 #include "ui/scene3d/scene_view.h"
-#define FOOTWALL_HAS_SCENE 1
-#endif
-#if __has_include("ui/section/section_view.h")
 #include "ui/section/section_view.h"
-#define FOOTWALL_HAS_SECTION 1
-#endif
+#include "ui/window/actions.h"
+#include "ui/window/main_window.h"
 
 namespace footwall::ui {
 
 ViewFactories built_views() {
   ViewFactories views;
-#ifdef FOOTWALL_HAS_SECTION
   views.section = [](Workbench& workbench, Id section, QWidget* parent) -> QWidget* {
-    return new SectionView(workbench, section, parent);
+    auto* view = new SectionView(workbench, section, parent);
+    QObject::connect(view, &SectionView::import_wanted, view, [view] {
+      auto* window = qobject_cast<MainWindow*>(view->window());
+      if (window != nullptr) window->actions().action(QStringLiteral("file.import"))->trigger();
+    });
+    return view;
   };
-#endif
-#ifdef FOOTWALL_HAS_SCENE
   views.scene = [](Workbench& workbench, QWidget* parent) -> QWidget* {
     return new SceneView(workbench, parent);
   };
@@ -45,7 +43,6 @@ ViewFactories built_views() {
     return done ? QString() : problem.isEmpty() ? QObject::tr("cannot write %1").arg(path) : problem;
   };
   views.is_settled = [](const QWidget& scene) { return static_cast<const SceneView&>(scene).is_settled(); };
-#endif
   return views;
 }
 

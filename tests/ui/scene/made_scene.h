@@ -61,6 +61,7 @@ class MadeScene {
     inline_plane = bench.display.add_section({.kind = Section::Kind::kInline, .index = size[0] - 2});
     slice_plane = bench.display.add_section({.kind = Section::Kind::kSlice, .index = size[2] - 2});
     for (const Fault& fault : bench.document.faults()) remake(fault.record.id);
+    bench.display.set_exaggeration(1);
     view = std::make_unique<SceneView>(bench);
     view->setPalette(dark());
     view->set_source(
