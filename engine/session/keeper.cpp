@@ -16,6 +16,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <thread>
 
 #include "storage/base/error.h"
 #include "storage/base/partial_file.h"
@@ -31,6 +32,9 @@ constexpr std::size_t kLongestFile = std::size_t{1} << 18;
 constexpr std::chrono::seconds kTimeToEnd{2};
 // How soon it looks again for what is left while things end.
 constexpr timespec kPause{0, 20'000'000};
+// Until the lock of an owner that was killed is let go.
+constexpr int kLockLooks = 50;
+constexpr std::chrono::milliseconds kLockLook{10};
 
 struct Orders {
   pid_t owner = 0;
@@ -68,10 +72,16 @@ bool has(const std::filesystem::path& file, const std::string& secret) {
 void remove_unless_locked(const std::filesystem::path& lock) {
   const int file = ::open(lock.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
   if (file < 0) return;
+  // A killed owner's files are closed one by one: its lock may hold a moment longer than what told of its
+  // end.
+  bool locked = ::flock(file, LOCK_EX | LOCK_NB) == 0;
+  for (int look = 0; look < kLockLooks && !locked; ++look) {
+    std::this_thread::sleep_for(kLockLook);
+    locked = ::flock(file, LOCK_EX | LOCK_NB) == 0;
+  }
   struct stat facts {};
   // Whoever locks it now looks whether it is still there.
-  if (::flock(file, LOCK_EX | LOCK_NB) == 0 && ::fstat(file, &facts) == 0 && facts.st_nlink > 0)
-    ::unlink(lock.c_str());
+  if (locked && ::fstat(file, &facts) == 0 && facts.st_nlink > 0) ::unlink(lock.c_str());
   ::close(file);
 }
 

@@ -30,6 +30,8 @@ class Mover:
 
     def __init__(self, engine, fault):
         self.engine, self.fault, self.told, self.step = engine, fault, {}, 0
+        # What a mover before this one put, which was killed, stands in nobody's journal: it goes with the engine.
+        engine.load_model(fault)
 
     def once(self, done):
         """One stream of moves, until done()."""

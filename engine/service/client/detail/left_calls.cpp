@@ -7,7 +7,8 @@
 namespace footwall::service {
 
 void keep_until_over(std::unique_ptr<LeftCall> call) {
-  // Of the whole process, and never destroyed: gRPC's threads may still use what is in here when the program ends.
+  // Of the whole process, and never destroyed: gRPC's threads may still use what is in here when the program
+  // ends.
   static auto& mutex = *new std::mutex;
   static auto& kept = *new std::vector<std::unique_ptr<LeftCall>>;
   std::vector<std::unique_ptr<LeftCall>> over;
