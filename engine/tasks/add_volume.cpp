@@ -171,11 +171,13 @@ void write_planned(PlannedVolume& planned, const VolumeSource& source, const Job
   volume::write_volume(planned.path_, options, source.fill, job);
 }
 
-project::VolumeRecord list_planned(project::Project& project, PlannedVolume& planned, const VolumeSource& source) {
+project::VolumeRecord list_planned(project::Project& project, PlannedVolume& planned,
+                                   const VolumeSource& source) {
   check_free_name(project, planned.name_);
   const auto survey = project.survey();
   if (survey.has_value() != planned.origin_.has_value()) {
-    throw Error(ErrorCode::kInvalid, "the project got a survey while the volume was written", "import it again");
+    throw Error(ErrorCode::kInvalid, "the project got a survey while the volume was written",
+                "import it again");
   }
   if (!survey) project.set_survey(source.geometry, source.provenance_json);
   const project::VolumeRecord record = list_volume(project, planned.name_, planned.path_);

@@ -58,9 +58,9 @@ class Interpretation {
   survey::Pillar add_pillar(std::int64_t fault, const survey::Pillar& pillar);
   void delete_pillar(std::int64_t pillar);
   void move_pillar(std::int64_t pillar, const survey::WorldPoint& by);
-  // The pillars belong to this fault from now on, with their ids. Interpolated ones go along without being named where
-  // both parents do, and are removed where only one does; one that is named without its parents becomes interpreted.
-  // A fault that has lost its last pillar stays.
+  // The pillars belong to this fault from now on, with their ids. Interpolated ones go along without being
+  // named where both parents do, and are removed where only one does; one that is named without its parents
+  // becomes interpreted. A fault that has lost its last pillar stays.
   void assign_pillars(std::span<const std::int64_t> pillars, std::int64_t fault);
   // The same nodes, last first.
   void reverse_pillar(std::int64_t pillar);

@@ -26,7 +26,9 @@ void DocumentTest::tells_what_an_edit_changed() {
   const survey::Pillar before = document.faults().front().pillars.front();
   QSignalSpy shapes(&document, &Document::shapes_changed);
   QSignalSpy facts(&document, &Document::faults_changed);
-  QVERIFY(document.edit("Move pillar", [&](project::Interpretation& now) { now.move_pillar(before.id, {1, 2, 3}); }));
+  QVERIFY(document.edit("Move pillar", [&](project::Interpretation& now) {
+    now.move_pillar(before.id, {1, 2, 3});
+  }));
   QCOMPARE(shapes.size(), 1);
   QCOMPARE(shapes[0][0].value<std::set<Id>>(), std::set<Id>{fault});
   QCOMPARE(facts.size(), 0);

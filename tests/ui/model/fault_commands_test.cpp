@@ -28,9 +28,11 @@ std::string tables(const Document& document) {
   std::string text;
   for (const Fault& fault : document.faults()) {
     const auto& f = fault.record;
-    text += fmt::format("fault {} {} {} {} {} {}\n", f.id, f.name, f.colour, f.revision, f.locked, f.modified);
+    text +=
+        fmt::format("fault {} {} {} {} {} {}\n", f.id, f.name, f.colour, f.revision, f.locked, f.modified);
     for (const survey::Pillar& p : fault.pillars) {
-      text += fmt::format("  pillar {} {} {} {} {}\n", p.id, static_cast<int>(p.kind), p.parent_a, p.parent_b, p.parameter);
+      text += fmt::format("  pillar {} {} {} {} {}\n", p.id, static_cast<int>(p.kind), p.parent_a, p.parent_b,
+                          p.parameter);
       for (const auto& n : p.nodes) {
         text += fmt::format("    {} {:a} {:a} {:a}\n", n.id, n.position.x, n.position.y, n.position.z);
       }
@@ -82,7 +84,8 @@ void do_something(Document& document, std::mt19937_64& random) {
       if (!pillars.empty()) smooth_pillars(document, pillars);
       return;
     default:
-      transform_items(document, {}, pillars, {}, {.move = {static_cast<double>(random() % 7), 1, -2}, .rotate_degrees = 3});
+      transform_items(document, {}, pillars, {},
+                      {.move = {static_cast<double>(random() % 7), 1, -2}, .rotate_degrees = 3});
       return;
   }
 }
@@ -109,7 +112,8 @@ void FaultCommandsTest::deletes_what_is_chosen_twice_once() {
   const Fault first = document.faults()[0];
   const std::size_t pillars = first.pillars.size();
   std::set<Id> nodes;
-  for (const auto& node : first.pillars[0].nodes) nodes.insert(node.id);  // all of a pillar: it goes with them
+  for (const auto& node : first.pillars[0].nodes)
+    nodes.insert(node.id);  // all of a pillar: it goes with them
   nodes.insert(first.pillars[1].nodes[0].id);
   QVERIFY(delete_items(document, {}, {first.pillars[1].id}, nodes));
   QCOMPARE(document.faults()[0].pillars.size(), pillars - 2);
@@ -129,7 +133,8 @@ void FaultCommandsTest::merges_and_splits() {
   QVERIFY(merge_faults(document, into, {other}));
   QCOMPARE(document.fault(into)->pillars.size(), both);
   QVERIFY(document.fault(other) == nullptr);
-  const Id made = split_fault(document, {document.fault(into)->pillars[0].id, document.fault(into)->pillars[1].id});
+  const Id made =
+      split_fault(document, {document.fault(into)->pillars[0].id, document.fault(into)->pillars[1].id});
   QCOMPARE(document.fault(made)->pillars.size(), std::size_t{2});
   QCOMPARE(document.fault(into)->pillars.size(), both - 2);
 }

@@ -1,4 +1,5 @@
-// Colours with a real engine: the same numbers as a batch run, following a hand, and going on after the engine's death.
+// Colours with a real engine: the same numbers as a batch run, following a hand, and going on after the
+// engine's death.
 #include <QSignalSpy>
 #include <QTest>
 #include <cmath>
@@ -73,7 +74,8 @@ void LiveColoursTest::numbers_are_those_of_a_run() {
       const std::vector<double>& values = expected.statistics.at(name);
       for (std::size_t f = 0; f < values.size(); ++f) {
         QCOMPARE(surface->faces[f].panel, expected.panels[f]);
-        QVERIFY2(values[f] == numbers->values[f] || (std::isnan(values[f]) && std::isnan(numbers->values[f])), name);
+        QVERIFY2(values[f] == numbers->values[f] || (std::isnan(values[f]) && std::isnan(numbers->values[f])),
+                 name);
       }
     }
   }

@@ -21,7 +21,8 @@ struct Desk {
     }
     picking.set_tool(Tool::kPick);
   }
-  Pointer at(double crossline, double sample_index, const Item& under = {}, Qt::KeyboardModifiers modifiers = {}) {
+  Pointer at(double crossline, double sample_index, const Item& under = {},
+             Qt::KeyboardModifiers modifiers = {}) {
     Pointer p;
     p.section.index = 10;
     p.place = {10, crossline, sample_index};
@@ -34,7 +35,8 @@ struct Desk {
     p.time = clock += 10ms;
     return p;
   }
-  void click(double crossline, double sample_index, const Item& under = {}, Qt::KeyboardModifiers modifiers = {}) {
+  void click(double crossline, double sample_index, const Item& under = {},
+             Qt::KeyboardModifiers modifiers = {}) {
     const Pointer p = at(crossline, sample_index, under, modifiers);
     picking.move(p);
     QVERIFY(picking.press(p));
@@ -42,11 +44,16 @@ struct Desk {
   }
   Item node(int pillar, int number) {
     return {.kind = Item::Kind::kNode,
-            .id = document.faults()[0].pillars[static_cast<std::size_t>(pillar)].nodes[static_cast<std::size_t>(number)].id};
+            .id = document.faults()[0]
+                      .pillars[static_cast<std::size_t>(pillar)]
+                      .nodes[static_cast<std::size_t>(number)]
+                      .id};
   }
   survey::IndexPoint place(int pillar, int number) {
-    return document.survey()->index_of(
-        document.faults()[0].pillars[static_cast<std::size_t>(pillar)].nodes[static_cast<std::size_t>(number)].position);
+    return document.survey()->index_of(document.faults()[0]
+                                           .pillars[static_cast<std::size_t>(pillar)]
+                                           .nodes[static_cast<std::size_t>(number)]
+                                           .position);
   }
   std::size_t steps() const {
     return static_cast<std::size_t>(
@@ -182,7 +189,8 @@ void PickingTest::a_drag_on_empty_ground_draws_a_pillar() {
   QVERIFY(!desk.picking.stroke().empty());
   QVERIFY(desk.picking.release(desk.at(10, 55)));
   QCOMPARE(desk.steps(), before + 1);
-  QCOMPARE(desk.document.faults()[0].pillars[0].nodes.size(), std::size_t{2});  // a straight line needs no more
+  QCOMPARE(desk.document.faults()[0].pillars[0].nodes.size(),
+           std::size_t{2});  // a straight line needs no more
   QVERIFY(desk.picking.stroke().empty());
   // Shorter than 200 ms it is a click that slipped, and does nothing.
   QVERIFY(desk.picking.press(desk.at(30, 5)));
@@ -222,7 +230,8 @@ void PickingTest::a_locked_fault_and_a_reader_change_nothing() {
   Desk desk(true);
   const Id fault = desk.document.faults()[0].record.id;
   desk.selection.set_active_fault(fault);
-  desk.document.edit("lock", [&](project::Interpretation& now) { now.set_fault_property(fault, "locked", "true"); });
+  desk.document.edit("lock",
+                     [&](project::Interpretation& now) { now.set_fault_property(fault, "locked", "true"); });
   const std::size_t before = desk.steps();
   const Pointer p = desk.at(5, 10);
   desk.picking.move(p);
