@@ -62,6 +62,8 @@ class MadeScene {
     slice_plane = bench.display.add_section({.kind = Section::Kind::kSlice, .index = size[2] - 2});
     for (const Fault& fault : bench.document.faults()) remake(fault.record.id);
     bench.display.set_exaggeration(1);
+    const Id shown = bench.display.volume();
+    bench.display.set_volume(0);  // nothing is asked of the real reader
     view = std::make_unique<SceneView>(bench);
     view->setPalette(dark());
     view->set_source(
@@ -80,6 +82,7 @@ class MadeScene {
            return has_engine ? ++pictures : 0;
          },
          [this](QObject* asker, Id volume, const Section& section) { give(asker, volume, section); }});
+    bench.display.set_volume(shown);
     view->resize(900, 700);
     view->show();
   }
