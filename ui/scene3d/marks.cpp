@@ -140,7 +140,7 @@ void Marks::draw(Gl& gl, const Pass& pass, const MarkBatch<Line>& lines, bool he
   if (lines.count == 0) return;
   set_common(gl, lines_, pass, lift);
   lines_.set(gl, "heights", heights ? static_cast<float>(pass.heights) : 1.0F);
-  gl.glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  gl.glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   draw_instances(gl, line_layout_, lines.buffer, sizeof(Line), lines.count);
 }
 
@@ -148,7 +148,7 @@ void Marks::draw(Gl& gl, const Pass& pass, const MarkBatch<Dot>& dots, bool heig
   if (dots.count == 0) return;
   set_common(gl, dots_, pass, 1.5F * kLift);
   dots_.set(gl, "heights", heights ? static_cast<float>(pass.heights) : 1.0F);
-  gl.glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  gl.glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   draw_instances(gl, dot_layout_, dots.buffer, sizeof(Dot), dots.count);
 }
 
