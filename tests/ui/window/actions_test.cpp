@@ -1,5 +1,6 @@
 #include "ui/window/actions.h"
 
+#include <QFile>
 #include <QMenuBar>
 #include <QTest>
 #include <algorithm>
@@ -27,6 +28,7 @@ class ActionsTest final : public QObject {
   void shortcuts_do_what_the_menu_does();
   void icons_follow_the_theme();
   void help_lists_every_action();
+  void the_guide_has_every_action_with_its_keys();
 };
 
 void ActionsTest::every_action_has_name_icon_shortcut_tip_and_a_place_in_a_menu() {
@@ -169,6 +171,23 @@ void ActionsTest::help_lists_every_action() {
   QVERIFY(window.findChild<HelpWindow*>()->isVisible());
   window.actions().action(QStringLiteral("help.guide"))->trigger();
   QVERIFY(window.findChild<HelpWindow*>()->windowTitle().contains(QStringLiteral("Guide")));
+}
+
+void ActionsTest::the_guide_has_every_action_with_its_keys() {
+  QFile file(QStringLiteral(FOOTWALL_SOURCE_DOCS "/studio.md"));
+  QVERIFY(file.open(QIODevice::ReadOnly));
+  const QString guide = QString::fromUtf8(file.readAll());
+  MainWindow window({});
+  for (const ActionRow& row : window.actions().table()) {
+    QStringList keys;
+    for (const QString& key : QString::fromLatin1(row.shortcuts).split(QLatin1Char(' '))) {
+      keys.append(QStringLiteral("`%1`").arg(key));
+    }
+    const QString name = QString::fromUtf8(row.name).remove(QLatin1Char('&'));
+    const QString line = QStringLiteral("| %1 | %2 | %3 |")
+                             .arg(name, keys.join(QStringLiteral(" or ")), QString::fromUtf8(row.tip));
+    QVERIFY2(guide.contains(line), qPrintable(line));
+  }
 }
 
 static const RegisterTest<ActionsTest> kRegistered;
