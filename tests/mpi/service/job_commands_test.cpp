@@ -6,6 +6,7 @@
 #include "engine/service/task_files.h"
 #include "engine/service/wire.h"
 #include "engine/session/attribute.h"
+#include "mpi/service/made_camera.h"
 #include "mpi/service/made_values.h"
 #include "mpi/service/resident_case.h"
 #include "storage/base/partial_file.h"
@@ -32,13 +33,7 @@ class JobCommands : public ResidentCase {
   static v1::Command render_command(const std::string& volume, float value) {
     v1::Command command;
     v1::RenderRequest& request = *command.mutable_render();
-    for (int n = 0; n < 16; ++n)  // the box from 0 to 23 fills the picture, seen along samples
-      request.mutable_camera()->add_view_projection(n % 5 == 0 ? (n == 15 ? 1 : 2.0 / 23)
-                                                               : (n % 4 == 3 ? -1 : 0));
-    for (const double each : {11.0, 9.0, 1000.0}) request.mutable_camera()->add_eye(each);
-    for (const double each : {1.0, 0.0, 0.0}) request.mutable_camera()->add_right(each);
-    for (const double each : {0.0, 1.0, 0.0}) request.mutable_camera()->add_up(each);
-    for (const double each : {0.0, 0.0, -1.0}) request.mutable_camera()->add_forward(each);
+    *request.mutable_camera() = camera_along_samples();
     request.set_width(64);
     request.set_height(48);
     v1::DrawnIsosurface& surface = *request.add_isosurfaces();

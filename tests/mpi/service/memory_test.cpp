@@ -9,6 +9,7 @@
 #include "engine/service/resident/memory_needs.h"
 #include "engine/service/wire.h"
 #include "mpi/service/host_layouts.h"
+#include "mpi/service/made_camera.h"
 #include "mpi/service/made_values.h"
 #include "mpi/service/resident_case.h"
 
@@ -42,13 +43,7 @@ class Memory : public ResidentCase {
   static v1::Command picture_command(const std::string& volume, int size) {
     v1::Command command;
     v1::RenderRequest& request = *command.mutable_render();
-    for (int n = 0; n < 16; ++n)
-      request.mutable_camera()->add_view_projection(n % 5 == 0 ? (n == 15 ? 1 : 2.0 / 23)
-                                                               : (n % 4 == 3 ? -1 : 0));
-    for (const double each : {11.0, 9.0, 1000.0}) request.mutable_camera()->add_eye(each);
-    for (const double each : {1.0, 0.0, 0.0}) request.mutable_camera()->add_right(each);
-    for (const double each : {0.0, 1.0, 0.0}) request.mutable_camera()->add_up(each);
-    for (const double each : {0.0, 0.0, -1.0}) request.mutable_camera()->add_forward(each);
+    *request.mutable_camera() = camera_along_samples();
     request.set_width(size);
     request.set_height(size);
     v1::DrawnIsosurface& surface = *request.add_isosurfaces();
