@@ -26,16 +26,6 @@ struct Pixels {
   double away = 0;  // greater = farther from the eye
 };
 
-// The four edges of the box along one axis: their first corners (the axis' bit is 0).
-std::array<unsigned, 4> edges_along(unsigned axis) {
-  std::array<unsigned, 4> corners{};
-  std::size_t n = 0;
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    if ((corner >> axis & 1U) == 0) corners[n++] = corner;
-  }
-  return corners;
-}
-
 class Axes {
  public:
   Axes(Scene& scene, const SceneFrame& frame, const Camera& camera, int width, int height)
@@ -157,6 +147,15 @@ class Axes {
 };
 
 }  // namespace
+
+std::array<unsigned, 4> edges_along(unsigned axis) {
+  std::array<unsigned, 4> corners{};
+  std::size_t n = 0;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    if ((corner >> axis & 1U) == 0) corners[n++] = corner;
+  }
+  return corners;
+}
 
 std::vector<double> round_numbers(double lo, double hi, int count, double least_step) {
   if (!(hi > lo) || !std::isfinite(lo) || !std::isfinite(hi)) return {lo};

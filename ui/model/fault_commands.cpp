@@ -80,6 +80,21 @@ bool reshape(Document& document, const QString& name, const std::set<Id>& pillar
   });
 }
 
+// A fault with a free name and colour, and what else is to happen to it, as one edit; 0: refused. words: of the history, with
+// a place for the name.
+Id make_fault(Document& document, const QString& words,
+              const std::function<void(project::Interpretation&, Id)>& then) {
+  const QString name = next_fault_name(document);
+  const QString colour = next_fault_colour(document);
+  Id made = 0;
+  document.edit(words.arg(name), [&](project::Interpretation& now) {
+    made = now.add_fault(name.toStdString());
+    now.set_fault_property(made, "colour", colour.toStdString());
+    then(now, made);
+  });
+  return document.fault(made) == nullptr ? 0 : made;
+}
+
 // What a transform moves: nodes by pillar, each node once.
 std::map<Id, std::set<Id>> nodes_of(const Document& document, const std::set<Id>& faults, const std::set<Id>& pillars,
                                     const std::set<Id>& nodes) {
@@ -124,14 +139,7 @@ QString next_fault_colour(const Document& document) {
 }
 
 Id new_fault(Document& document) {
-  const QString name = next_fault_name(document);
-  const QString colour = next_fault_colour(document);
-  Id made = 0;
-  document.edit(tr("New fault %1").arg(name), [&](project::Interpretation& now) {
-    made = now.add_fault(name.toStdString());
-    now.set_fault_property(made, "colour", colour.toStdString());
-  });
-  return document.fault(made) == nullptr ? 0 : made;
+  return make_fault(document, tr("New fault %1"), [](project::Interpretation&, Id) {});
 }
 
 bool rename_fault(Document& document, Id fault, const QString& name) {
@@ -202,15 +210,9 @@ bool merge_faults(Document& document, Id into, const std::set<Id>& others) {
 
 Id split_fault(Document& document, const std::set<Id>& pillars) {
   if (pillars.empty()) return 0;
-  const QString name = next_fault_name(document);
-  const QString colour = next_fault_colour(document);
-  Id made = 0;
-  document.edit(tr("Split off %1").arg(name), [&](project::Interpretation& now) {
-    made = now.add_fault(name.toStdString());
-    now.set_fault_property(made, "colour", colour.toStdString());
+  return make_fault(document, tr("Split off %1"), [&](project::Interpretation& now, Id made) {
     now.assign_pillars(std::vector<Id>(pillars.begin(), pillars.end()), made);
   });
-  return document.fault(made) == nullptr ? 0 : made;
 }
 
 bool assign_pillars(Document& document, const std::set<Id>& pillars, Id fault) {

@@ -88,12 +88,6 @@ class SceneDrawing {
     Id loose_plane = 0;
     bool under_way = false;
   };
-  struct PlaneRange {
-    const SectionSamples* samples = nullptr;
-    const SectionReader::VolumeFacts* facts = nullptr;
-    SampleLook look;
-    std::array<float, 2> range{0, 1};
-  };
   static constexpr std::size_t kWorkPerSlice = 15'000;    // triangles
   static constexpr std::size_t kQuickTriangles = 20'000;  // while the camera moves
   static constexpr std::size_t kLooseTriangles = 20'000;  // of one fault that is being edited
@@ -161,7 +155,6 @@ class SceneDrawing {
   std::optional<std::pair<std::shared_ptr<const Picture>, render::Matrix4>> picture_to_upload_;
   bool static_marks_old_ = true, camera_marks_old_ = true, loose_marks_old_ = true, flat_old_ = true;
   std::optional<std::pair<double, double>> range_;
-  std::map<Id, PlaneRange> plane_ranges_;
   std::optional<ColourBar> bar_;
   bool range_old_ = true;  // range_ and bar_ are
 

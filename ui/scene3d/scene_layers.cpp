@@ -5,6 +5,7 @@
 
 #include "storage/base/error.h"
 #include "ui/scene3d/scene_drawing.h"
+#include "ui/model/sample_colours.h"
 
 namespace footwall::ui {
 
@@ -112,13 +113,10 @@ void SceneDrawing::draw_plane(const Pass& pass, Id plane) {
   const SectionSamples* samples = planes_.samples(plane);
   if (samples == nullptr || !frame_) return;
   const SampleLook& look = workbench_.display.samples();
-  // Sorting the samples of a volume that is not known yet is not for every frame.
-  const SectionReader::VolumeFacts* facts = workbench_.sections.facts(samples->volume);
-  PlaneRange& known = plane_ranges_[plane];
-  if (known.samples != samples || known.facts != facts || !(known.look == look)) {
-    known = {samples, facts, look, range_of(look, facts, *samples)};
-  }
-  const PlaneLook how{known.range, colours_named(look.colour_map), look.interpolate};
+  const SampleColours as_in_sections(look, workbench_.sections.facts(samples->volume));
+  const std::array<float, 2> range{static_cast<float>(as_in_sections.low()),
+                                   static_cast<float>(as_in_sections.high())};
+  const PlaneLook how{range, colours_named(look.colour_map), look.interpolate};
   // Where the samples are from: those of a plane that moves may come a little later.
   planes_.draw(*gl_, pass, plane, place_of(samples->section, *frame_), how);
 }

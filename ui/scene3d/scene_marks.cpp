@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/scene3d/mixed_colour.h"
 #include "ui/scene3d/scene_drawing.h"
 
 namespace footwall::ui {
@@ -10,14 +11,6 @@ namespace {
 
 using render::Vec3;
 using render::Vec3f;
-
-QColor mixed(const QColor& a, const QColor& b, double share) {
-  const auto channel = [share](float from, float to) {
-    return static_cast<float>(from + (to - from) * share);
-  };
-  return QColor::fromRgbF(channel(a.redF(), b.redF()), channel(a.greenF(), b.greenF()),
-                          channel(a.blueF(), b.blueF()));
-}
 
 }  // namespace
 

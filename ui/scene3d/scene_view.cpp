@@ -7,6 +7,7 @@
 
 #include "storage/base/error.h"
 #include "storage/base/log.h"
+#include "ui/scene3d/mixed_colour.h"
 #include "ui/scene3d/scene_private.h"
 
 static void load_shaders() {
@@ -17,14 +18,6 @@ namespace footwall::ui {
 namespace {
 
 using render::Vec3;
-
-QColor mixed(const QColor& a, const QColor& b, double share) {
-  const auto channel = [share](float from, float to) {
-    return static_cast<float>(from + (to - from) * share);
-  };
-  return QColor::fromRgbF(channel(a.redF(), b.redF()), channel(a.greenF(), b.greenF()),
-                          channel(a.blueF(), b.blueF()));
-}
 
 }  // namespace
 

@@ -34,42 +34,6 @@ std::optional<PlaneHit> hit_of(const Ray& ray, const PlanePlace& place, const Pl
   return PlaneHit{distance, {s * size.width - 0.5, t * size.height - 0.5}};
 }
 
-std::array<float, 2> range_of(const SampleLook& look, const SectionReader::VolumeFacts* facts,
-                              const SectionSamples& samples) {
-  const double gain = look.gain > 0 ? look.gain : 1;
-  const double share = std::clamp(look.clip_percentile, 0.0, 100.0) / 100;
-  std::vector<double> percentiles;
-  bool is_signed = true;
-  if (facts != nullptr && !facts->percentiles.empty()) {
-    percentiles = facts->percentiles;
-    is_signed = facts->signed_values;
-  } else {
-    std::vector<float> values;
-    for (const float value : samples.values) {
-      if (std::isfinite(value)) values.push_back(value);
-    }
-    is_signed = std::ranges::any_of(values, [](float value) { return value < 0; });
-    if (is_signed) std::ranges::for_each(values, [](float& value) { value = std::abs(value); });
-    std::ranges::sort(values);
-    for (std::size_t n = 0; n <= 100 && !values.empty(); ++n)
-      percentiles.push_back(values[n * (values.size() - 1) / 100]);
-  }
-  if (percentiles.empty()) return {-1, 1};
-  const auto at = [&](double part) {
-    return percentiles[static_cast<std::size_t>(
-        std::lround(part * static_cast<double>(percentiles.size() - 1)))];
-  };
-  if (is_signed) {
-    const double end = at(share) > 0 ? at(share) / gain : 1;
-    return {static_cast<float>(-end), static_cast<float>(end)};
-  }
-  const double low = at(1 - share);
-  const double high = at(share);
-  const double middle = (low + high) / 2;
-  const double half = (high > low ? (high - low) / 2 : 1) / gain;
-  return {static_cast<float>(middle - half), static_cast<float>(middle + half)};
-}
-
 void SectionPlanes::build(Gl& gl) {
   program_.build(gl, "plane.vert", "plane.frag");
   gl.glCreateVertexArrays(1, &layout_);

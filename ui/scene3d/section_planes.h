@@ -29,10 +29,6 @@ struct PlaneHit {
 };
 std::optional<PlaneHit> hit_of(const Ray& ray, const PlanePlace& place, const PlaneSize& size);
 
-// Values that the ends of a colour map stand for. facts may be null: then of the samples themselves.
-std::array<float, 2> range_of(const SampleLook& look, const SectionReader::VolumeFacts* facts,
-                              const SectionSamples& samples);
-
 struct PlaneLook {
   std::array<float, 2> range{0, 1};
   GLuint colours = 0;

@@ -14,16 +14,6 @@ namespace {
 using render::Vec3;
 using render::Vec3f;
 
-// The first corners of the four edges along an axis.
-std::array<unsigned, 4> edges_along(unsigned axis) {
-  std::array<unsigned, 4> corners{};
-  std::size_t n = 0;
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    if ((corner >> axis & 1U) == 0) corners[n++] = corner;
-  }
-  return corners;
-}
-
 struct Axis {
   QString title;
   double first = 0, last = 1, step = 1;
@@ -46,7 +36,7 @@ class Box {
   void add_edges() {
     const auto farthest = static_cast<unsigned>(std::ranges::max_element(away_) - away_.begin());
     for (unsigned axis = 0; axis < 3; ++axis) {
-      for (const unsigned corner : edges_along(axis)) {
+      for (const unsigned corner : render::edges_along(axis)) {
         const unsigned other = corner | 1U << axis;
         const bool behind = corner == farthest || other == farthest;
         QColor colour = behind ? colours_.line : colours_.dim;
@@ -97,7 +87,7 @@ class Box {
   unsigned nearest_edge(unsigned axis) const {
     const bool from_above = camera_.forward.z <= 0;
     unsigned best = 8;
-    for (const unsigned corner : edges_along(axis)) {
+    for (const unsigned corner : render::edges_along(axis)) {
       if (((corner & 4U) != 0) != from_above) continue;
       const auto away = [&](unsigned c) { return away_[c] + away_[c | 1U << axis]; };
       if (best == 8 || away(corner) < away(best)) best = corner;
@@ -106,7 +96,7 @@ class Box {
   }
   // The leftmost or rightmost of the standing ones: that which stands farther from the floor's labels.
   unsigned standing_edge() const {
-    const std::array<unsigned, 4> edges = edges_along(2);
+    const std::array<unsigned, 4> edges = render::edges_along(2);
     const auto across = [this](unsigned corner) { return at_[corner].x() + at_[corner | 4U].x(); };
     const unsigned left = *std::ranges::min_element(edges, {}, across);
     const unsigned right = *std::ranges::max_element(edges, {}, across);

@@ -16,6 +16,23 @@ namespace footwall::ui {
 
 constexpr int kPatience = 60000;
 
+// A project whose first fault gets its colours from an engine.
+struct Coloured {
+  explicit Coloured(const SampleProject& sample, int ranks)
+      : document(sample.open()),
+        engine(document, {.ranks = ranks, .connection = {}}),
+        surfaces(document, &engine) {
+    engine.start();
+  }
+  Id fault() const { return document.faults()[0].record.id; }
+  bool is_fresh() const {
+    return surfaces.is_settled() && surfaces.freshness(fault(), "variance") == Freshness::kFresh;
+  }
+  Document document;
+  EngineLink engine;
+  Surfaces surfaces;
+};
+
 class LiveColoursTest final : public QObject {
   Q_OBJECT
 
@@ -83,15 +100,11 @@ void LiveColoursTest::numbers_are_those_of_a_run() {
 
 void LiveColoursTest::colours_follow_a_hand_and_go_on_after_a_death() {
   const SampleProject sample;
-  Document document(sample.open());
-  EngineLink engine(document, {.ranks = 2, .connection = {}});
-  Surfaces surfaces(document, &engine);
-  engine.start();
-  const Id fault = document.faults()[0].record.id;
-  const auto fresh = [&] {
-    return surfaces.is_settled() && surfaces.freshness(fault, "variance") == Freshness::kFresh;
-  };
-  QTRY_VERIFY_WITH_TIMEOUT(fresh(), kPatience);
+  Coloured desk(sample, 2);
+  Document& document = desk.document;
+  Surfaces& surfaces = desk.surfaces;
+  const Id fault = desk.fault();
+  QTRY_VERIFY_WITH_TIMEOUT(desk.is_fresh(), kPatience);
   const auto before = surfaces.numbers(fault, "variance");
   // 1. A hand moves a node to and fro: numbers arrive while it does, and are known to be of a hand.
   std::vector<survey::Pillar> pillars = document.faults()[0].pillars;
@@ -106,17 +119,19 @@ void LiveColoursTest::colours_follow_a_hand_and_go_on_after_a_death() {
   QTRY_VERIFY_WITH_TIMEOUT(!numbers.empty(), kPatience);
   // 2. Esc: the stored colours again.
   document.end_provisional();
-  QTRY_VERIFY_WITH_TIMEOUT(fresh(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(desk.is_fresh(), kPatience);
   QCOMPARE(surfaces.numbers(fault, "variance")->values, before->values);
   // 3. The engine's ranks are killed; the next gesture gets its colours all the same.
-  const auto status = service::EngineClient(*engine.connection()).status();
+  const auto status = service::EngineClient(*desk.engine.connection()).status();
   for (const auto& rank : status.each_rank()) ::kill(rank.process(), SIGKILL);
   document.edit("Move node", [&](project::Interpretation& now) {
     survey::WorldPoint p = pillar.nodes[1].position;
     p.x += 30;
     now.move_node(pillar.nodes[1].id, p);
   });
-  const auto moved = [&] { return fresh() && surfaces.numbers(fault, "variance")->values != before->values; };
+  const auto moved = [&] {
+    return desk.is_fresh() && surfaces.numbers(fault, "variance")->values != before->values;
+  };
   QTRY_VERIFY_WITH_TIMEOUT(moved(), kPatience);
 }
 
@@ -124,17 +139,10 @@ void LiveColoursTest::a_live_run_is_there_again_when_opened() {
   const SampleProject sample;
   std::vector<double> known;
   {
-    Document document(sample.open());
-    EngineLink engine(document, {.ranks = 1, .connection = {}});
-    Surfaces surfaces(document, &engine);
-    engine.start();
-    const Id fault = document.faults()[0].record.id;
-    const auto fresh = [&] {
-      return surfaces.is_settled() && surfaces.freshness(fault, "variance") == Freshness::kFresh;
-    };
-    QTRY_VERIFY_WITH_TIMEOUT(fresh(), kPatience);
-    known = surfaces.numbers(fault, "variance")->values;
-    surfaces.store_live_run();
+    Coloured desk(sample, 1);
+    QTRY_VERIFY_WITH_TIMEOUT(desk.is_fresh(), kPatience);
+    known = desk.surfaces.numbers(desk.fault(), "variance")->values;
+    desk.surfaces.store_live_run();
   }
   Document document(sample.open());
   Surfaces surfaces(document, nullptr);
