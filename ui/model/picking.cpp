@@ -95,6 +95,12 @@ struct Picking::State {
     return found == fault->pillars.end() ? nullptr : &*found;
   }
   const Fault* active_fault() const { return document.fault(selection.active_fault()); }
+  // While one fault is picked, the nodes and lines of others do not catch its clicks: faults meet, and a pick
+  // beside another fault must not go to that one.
+  bool is_of_another(const Item& item) const {
+    const Fault* owner = fault_at(item);
+    return tool == Tool::kPick && owner != nullptr && active_fault() != nullptr && owner != active_fault();
+  }
   // The pillar that a click on empty ground of this section adds to, or null where it starts a new one.
   const survey::Pillar* pillar_to_extend(const Pointer& p) const {
     if (active == 0 || !(p.section == active_section) || (p.modifiers & Qt::ShiftModifier) != 0) return nullptr;
@@ -141,6 +147,7 @@ struct Picking::State {
 
   void click(const Pointer& p) {
     const bool control = (p.modifiers & Qt::ControlModifier) != 0;
+    if (!control && is_of_another(p.under)) return add_node(p);
     if (p.under.kind == Item::Kind::kNode) {
       if (control) {
         delete_node(p.under.id);
@@ -343,7 +350,7 @@ struct Picking::State {
     if (document.read_only()) return {tr("read-only: somebody else writes this project"), PointerShape::kArrow};
     if (!at.on_section) return {tr("point at a section to pick"), PointerShape::kArrow};
     const Fault* under = fault_at(at.under);
-    if (under != nullptr && under->record.locked) {
+    if (under != nullptr && under->record.locked && !is_of_another(at.under)) {
       return {tr("%1 is locked: unlock it to change it").arg(name_of(*under)), PointerShape::kArrow};
     }
     return tool == Tool::kMove ? move_hint() : pick_hint();
@@ -360,12 +367,13 @@ struct Picking::State {
   std::pair<QString, PointerShape> pick_hint() const {
     const Fault* target = active_fault();
     if (copies) return {tr("drag a pillar to copy it"), PointerShape::kMoveNode};
+    const bool another = is_of_another(at.under);
     if (at.under.kind == Item::Kind::kNode) {
       if ((at.modifiers & Qt::ControlModifier) != 0) return {tr("click deletes this node"), PointerShape::kDeleteNode};
-      return {tr("drag moves this node; Ctrl+click deletes it"), PointerShape::kMoveNode};
+      if (!another) return {tr("drag moves this node; Ctrl+click deletes it"), PointerShape::kMoveNode};
     }
     if (inserts_into(at)) return {tr("click inserts a node into %1").arg(words_for(at.under)), PointerShape::kAddNode};
-    if (at.under.kind == Item::Kind::kPillar && (at.modifiers & Qt::ShiftModifier) == 0) {
+    if (at.under.kind == Item::Kind::kPillar && !another && (at.modifiers & Qt::ShiftModifier) == 0) {
       return {tr("click goes on with %1").arg(words_for(at.under)), PointerShape::kArrow};
     }
     if (target != nullptr && target->record.locked) {
@@ -451,6 +459,10 @@ bool Picking::press(const Pointer& pointer) {
   s.abandon();
   s.pressed = pointer;
   const Fault* under = s.fault_at(pointer.under);
+  if (under != nullptr && under->record.locked && s.is_of_another(pointer.under)) {
+    s.pressed.under = {};  // a drag leaves it alone, too
+    under = nullptr;
+  }
   const bool locked = (under != nullptr && under->record.locked) ||
                       (under == nullptr && s.active_fault() != nullptr && s.active_fault()->record.locked);
   if (locked) return true;  // the hint says why nothing happens

@@ -4,6 +4,7 @@
 #include <QTest>
 #include <memory>
 
+#include "ui/model/fault_commands.h"
 #include "ui/sample_project.h"
 #include "ui/test_class.h"
 
@@ -82,6 +83,7 @@ class PickingTest final : public QObject {
   void backquote_copies_a_pillar();
   void another_section_starts_another_pillar();
   void a_locked_fault_and_a_reader_change_nothing();
+  void a_click_beside_another_fault_stays_with_the_active_one();
   void undo_while_the_button_is_down_is_survived();
   void the_hint_says_what_the_click_does();
 };
@@ -249,6 +251,37 @@ void PickingTest::a_locked_fault_and_a_reader_change_nothing() {
   picking.move(p);
   QVERIFY(!picking.press(p));
   QVERIFY(picking.hint().contains("read-only"));
+}
+
+void PickingTest::a_click_beside_another_fault_stays_with_the_active_one() {
+  Desk desk(true);
+  const Id other = desk.document.faults()[0].record.id;
+  const Item node = desk.node(0, 0);
+  const std::size_t others_nodes = desk.document.faults()[0].pillars[0].nodes.size();
+  const Id mine = new_fault(desk.document);
+  desk.selection.set_active_fault(mine);
+  desk.click(5, 10);
+  desk.click(7, 30, node);
+  QVERIFY(desk.picking.double_click(desk.at(7, 30, node)));
+  QCOMPARE(desk.selection.active_fault(), mine);
+  QCOMPARE(desk.document.fault(mine)->pillars.size(), std::size_t{1});
+  QCOMPARE(desk.document.fault(mine)->pillars[0].nodes.size(), std::size_t{2});
+  QCOMPARE(desk.document.fault(other)->pillars[0].nodes.size(), others_nodes);
+  // A lock on the other one does not stop the pick, and a drag does not move what is locked.
+  lock_faults(desk.document, {other}, true);
+  desk.click(9, 20, node);
+  QCOMPARE(desk.document.fault(mine)->pillars.size(), std::size_t{2});
+  const std::size_t before = desk.steps();
+  QVERIFY(desk.picking.press(desk.at(9, 25, node)));
+  desk.picking.move(desk.at(12, 40));
+  desk.picking.release(desk.at(12, 40));
+  QCOMPARE(desk.steps(), before);
+  // Without an active fault a click takes the other one up.
+  desk.selection.clear();
+  desk.selection.set_active_fault(0);
+  lock_faults(desk.document, {other}, false);
+  desk.click(5, 10, node);
+  QCOMPARE(desk.selection.active_fault(), other);
 }
 
 void PickingTest::undo_while_the_button_is_down_is_survived() {
