@@ -158,44 +158,43 @@ Chart Chart::from_text(std::string_view text) {
   return chart;
 }
 
-Chart fit_chart(std::span<const PillarInput> pillars) {
-  // In the order of ids, so that the order in which the pillars come leaves no trace in the rounding.
+namespace {
+
+// In the order of ids, so that the order in which the pillars come leaves no trace in the rounding.
+std::vector<const PillarInput*> by_id(std::span<const PillarInput> pillars) {
   std::vector<const PillarInput*> ordered;
   for (const PillarInput& p : pillars) ordered.push_back(&p);
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const PillarInput* a, const PillarInput* b) { return a->id < b->id; });
+  return ordered;
+}
+
+struct Middle {
   Vector3 sum{0, 0, 0};
   double count = 0;
-  for (const PillarInput* p : ordered) {
-    for (const IndexPoint& q : p->nodes) {
-      if (!std::isfinite(q.i) || !std::isfinite(q.j) || !std::isfinite(q.k))
-        throw Error(ErrorCode::kInvalid,
-                    fmt::format("a node of pillar '{}' is not finite", p->name_for_messages));
-      sum = {sum[0] + q.i, sum[1] + q.j, sum[2] + q.k};
-      ++count;
-    }
+  void add(const IndexPoint& q) {
+    sum = {sum[0] + q.i, sum[1] + q.j, sum[2] + q.k};
+    ++count;
   }
-  if (count < 3)
-    throw Error(ErrorCode::kInvalid, fmt::format("the fault has {} nodes, a surface needs three", int(count)),
-                "pick more nodes");
+  Vector3 place() const { return {sum[0] / count, sum[1] / count, sum[2] / count}; }
+};
+
+using Moments = std::array<Vector3, 3>;
+
+void add_moment(Moments& moments, const Vector3& d) {
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) moments[r][c] += d[r] * d[c];
+}
+
+// The frame whose normal is the direction of least moment.
+Chart frame_of(const Vector3& origin, Moments moments, std::span<const PillarInput> pillars) {
   Chart chart;
-  chart.origin = {sum[0] / count, sum[1] / count, sum[2] / count};
-  std::array<Vector3, 3> moments{};
-  for (const PillarInput* p : ordered) {
-    for (const IndexPoint& q : p->nodes) {
-      const Vector3 d{q.i - chart.origin[0], q.j - chart.origin[1], q.k - chart.origin[2]};
-      for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c) moments[r][c] += d[r] * d[c];
-    }
-  }
+  chart.origin = origin;
   std::array<Vector3, 3> vectors;
   jacobi(moments, vectors);
   std::array<int, 3> by_size{0, 1, 2};
   std::stable_sort(by_size.begin(), by_size.end(),
                    [&](int a, int b) { return moments[a][a] < moments[b][b]; });
-  if (!(std::sqrt(std::max(0.0, moments[by_size[1]][by_size[1]]) / count) > kTouch))
-    throw Error(ErrorCode::kInvalid, "the pillars' nodes all lie on one line",
-                "pick the fault on further sections");
   auto column = [&](int c) { return cleaned({vectors[0][c], vectors[1][c], vectors[2][c]}); };
   chart.normal = column(by_size[0]);
   const double first = chart.normal[0] != 0   ? chart.normal[0]
@@ -217,6 +216,74 @@ Chart fit_chart(std::span<const PillarInput> pillars) {
   chart.strike = unit(chart.strike);
   chart.along = main_direction(chart, pillars);
   return chart;
+}
+
+// Of a symmetric matrix: its middle eigenvalue.
+double middle_moment(Moments moments) {
+  std::array<Vector3, 3> vectors;
+  jacobi(moments, vectors);
+  std::array<double, 3> values{moments[0][0], moments[1][1], moments[2][2]};
+  std::sort(values.begin(), values.end());
+  return values[1];
+}
+
+}  // namespace
+
+Chart fit_chart(std::span<const PillarInput> pillars) {
+  const std::vector<const PillarInput*> ordered = by_id(pillars);
+  Middle middle;
+  for (const PillarInput* p : ordered) {
+    for (const IndexPoint& q : p->nodes) {
+      if (!std::isfinite(q.i) || !std::isfinite(q.j) || !std::isfinite(q.k))
+        throw Error(ErrorCode::kInvalid,
+                    fmt::format("a node of pillar '{}' is not finite", p->name_for_messages));
+      middle.add(q);
+    }
+  }
+  if (middle.count < 3)
+    throw Error(ErrorCode::kInvalid,
+                fmt::format("the fault has {} nodes, a surface needs three", int(middle.count)),
+                "pick more nodes");
+  const Vector3 origin = middle.place();
+  Moments moments{};
+  for (const PillarInput* p : ordered) {
+    for (const IndexPoint& q : p->nodes) add_moment(moments, {q.i - origin[0], q.j - origin[1], q.k - origin[2]});
+  }
+  if (!(std::sqrt(std::max(0.0, middle_moment(moments)) / middle.count) > kTouch))
+    throw Error(ErrorCode::kInvalid, "the pillars' nodes all lie on one line",
+                "pick the fault on further sections");
+  return frame_of(origin, moments, pillars);
+}
+
+std::optional<Chart> fit_chart_across(std::span<const PillarInput> pillars) {
+  // 1. The middle of each pillar, and of those.
+  const std::vector<const PillarInput*> ordered = by_id(pillars);
+  std::vector<Vector3> middles;
+  Middle whole;
+  for (const PillarInput* p : ordered) {
+    Middle one;
+    for (const IndexPoint& q : p->nodes) one.add(q);
+    if (one.count == 0) return std::nullopt;
+    middles.push_back(one.place());
+    whole.add({middles.back()[0], middles.back()[1], middles.back()[2]});
+  }
+  if (middles.size() < 3) return std::nullopt;
+  // 2. Spread along the pillars, and spread from pillar to pillar.
+  Moments along{}, between{};
+  const Vector3 origin = whole.place();
+  for (std::size_t n = 0; n < ordered.size(); ++n) {
+    const Vector3& m = middles[n];
+    for (const IndexPoint& q : ordered[n]->nodes) add_moment(along, {q.i - m[0], q.j - m[1], q.k - m[2]});
+    add_moment(between, {m[0] - origin[0], m[1] - origin[1], m[2] - origin[2]});
+  }
+  // 3. Both count alike.
+  const double a = along[0][0] + along[1][1] + along[2][2], b = between[0][0] + between[1][1] + between[2][2];
+  if (!(a > kTouch) || !(b > kTouch)) return std::nullopt;
+  Moments both{};
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) both[r][c] = along[r][c] / a + between[r][c] / b;
+  if (!(middle_moment(both) > 1e-6)) return std::nullopt;
+  return frame_of(origin, both, pillars);
 }
 
 }  // namespace footwall::pillars

@@ -316,6 +316,25 @@ std::int64_t pair_id(std::int64_t pillar_a, std::int64_t pillar_b) {
   return hashed_id(std::array{low, high});
 }
 
+namespace {
+
+// The surface in one frame. turns: whether the frame may be turned round for the normal's sign.
+FaultMesh woven(std::span<const PillarInput> pillars, const Options& options, Chart frame, bool turns,
+                const JobContext& job) {
+  auto weaver_for = [&](std::vector<std::string>& notes) {
+    return Weaver(arrange(courses_of(pillars, frame, notes), frame, options, notes), frame, options);
+  };
+  std::vector<std::string> notes;
+  Weaver weaver = weaver_for(notes);
+  if (!turns || !points_backwards(weaver.vector_area())) return weaver.weave(std::move(notes), job);
+  // The chart's normal has the wanted sign, the surface's mean normal has not: from the other side it has.
+  frame = turned(frame);
+  notes.clear();
+  return weaver_for(notes).weave(std::move(notes), job);
+}
+
+}  // namespace
+
 FaultMesh triangulate(std::span<const PillarInput> pillars, const Options& options,
                       const std::optional<Chart>& chart, const JobContext& job) {
   for (const auto& [name, value] : {std::pair{"--detail", options.detail}, {"--max-edge", options.max_edge}})
@@ -327,17 +346,23 @@ FaultMesh triangulate(std::span<const PillarInput> pillars, const Options& optio
                 fmt::format("the fault has {} pillar(s), a surface needs two", pillars.size()),
                 "pick the fault on another section");
   const bool stored = chart && !chart->empty();
-  Chart frame = stored ? *chart : fit_chart(pillars);
-  auto weaver_for = [&](std::vector<std::string>& notes) {
-    return Weaver(arrange(courses_of(pillars, frame, notes), frame, options, notes), frame, options);
-  };
-  std::vector<std::string> notes;
-  Weaver weaver = weaver_for(notes);
-  if (stored || !points_backwards(weaver.vector_area())) return weaver.weave(std::move(notes), job);
-  // The chart's normal has the wanted sign, the surface's mean normal has not: from the other side it has.
-  frame = turned(frame);
-  notes.clear();
-  return weaver_for(notes).weave(std::move(notes), job);
+  try {
+    return woven(pillars, options, stored ? *chart : fit_chart(pillars), !stored, job);
+  } catch (const Error& refused) {
+    if (refused.code() != ErrorCode::kInvalid || pillars.size() < 3) throw;
+    // Perhaps it is only the frame that does not suit them (any more).
+    std::vector<Chart> others;
+    if (stored) others.push_back(fit_chart(pillars));
+    if (const auto across = fit_chart_across(pillars)) others.push_back(*across);
+    for (const Chart& other : others) {
+      try {
+        return woven(pillars, options, other, true, job);
+      } catch (const Error& again) {
+        if (again.code() != ErrorCode::kInvalid) throw;
+      }
+    }
+    throw;
+  }
 }
 
 }  // namespace footwall::pillars

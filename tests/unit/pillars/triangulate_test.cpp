@@ -1,5 +1,6 @@
 #include "engine/pillars/triangulate.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -338,6 +339,29 @@ TEST(Triangulate, RandomPillarsGiveASoundMeshOrAnError) {
 TEST(Triangulate, WeavesAHundredThousandTriangles) {
   const FaultMesh m = woven(picked(listric, 100, 20, 12, 1.0), {.detail = 0.5, .max_edge = 2.2});
   EXPECT_GT(m.faces.size(), 80000u);
+}
+
+// A fault picked on four inlines ten apart, long down the section: one node that sticks out by more than the lines
+// are apart turns the least-squares plane of the nodes into the section, where the pillars lie on one another.
+TEST(Triangulate, NarrowFaultWithANodeFarOutKeepsASurface) {
+  std::vector<PillarInput> pillars;
+  for (int p = 0; p < 4; ++p) {
+    PillarInput pillar{p + 1, fmt::format("P{}", p + 1), {}, {}};
+    for (int n = 0; n < 5; ++n)
+      pillar.nodes.push_back({128.0 + 10 * p, 188.0 + 3 * (p % 2) + 9 * n + n * n, 20.0 + 50 * n});
+    pillars.push_back(pillar);
+  }
+  const FaultMesh before = woven(pillars);
+  expect_sound(before);
+  pillars[3].nodes[2].j -= 60;
+  expect_sound(woven(pillars));
+  const FaultMesh after = woven(pillars, {}, before.chart);
+  expect_sound(after);
+  const auto [i, j, k] = after.chart.normal;
+  EXPECT_GT(std::abs(j), std::abs(i)) << "the frame is that of the section";
+  // Nor does a frame that was found when there were other pillars stay in the way.
+  const Chart section = fit_chart(std::span(pillars).first(1));
+  expect_sound(woven(pillars, {}, section));
 }
 
 TEST(Triangulate, CanBeCancelled) {
