@@ -83,7 +83,7 @@ void SurfaceWorker::make(const SurfaceRequest& request) {
     for (const std::string& note : notes) made.problem += (made.problem.empty() ? "" : "\n") + note;
   } catch (const Error& error) {
     if (error.code() == ErrorCode::kCancelled) return;
-    made.problem = error.message();
+    made.problem = error.hint().empty() ? error.message() : error.message() + ": " + error.hint();
   }
   made_(std::move(made));
 }

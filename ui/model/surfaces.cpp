@@ -139,7 +139,10 @@ struct Surfaces::State {
     request.number = entry.asked = ++last_request;
     request.fault = fault.record;
     request.pillars = pillars;
-    request.chart = fault.record.chart.empty() ? entry.chart : fault.record.chart;
+    // A frame found from the first picks would stay with the fault for good: it is settled by the fourth pillar.
+    constexpr std::size_t kSettled = 4;
+    request.chart = fault.record.chart;
+    if (request.chart.empty() && pillars.size() >= kSettled) request.chart = entry.chart;
     request.options = {.detail = entry.options.detail, .max_edge = entry.options.max_edge,
                        .tie = entry.options.tie_tolerance};
     request.provisional = document.is_provisional(fault.record.id);
@@ -174,7 +177,7 @@ struct Surfaces::State {
     entry.made = made.number;
     entry.problem = QString::fromStdString(made.problem);
     if (made.surface != nullptr) {
-      if (entry.chart.empty()) entry.chart = made.mesh.chart;
+      if (entry.chart.empty() || !made.surface->provisional) entry.chart = made.mesh.chart;
       if (!made.surface->provisional && !document.read_only() && made.mesh.revision == fault->record.revision) {
         try {
           document.store().store_mesh(made.fault, made.mesh);

@@ -60,7 +60,13 @@ void open_export_dialog(MainWindow& window) {
 }
 
 void open_isosurface_dialog(MainWindow& window, Id isosurface) {
-  show(new IsosurfaceDialog(*window.workbench(), isosurface, &window));
+  auto* dialog = new IsosurfaceDialog(*window.workbench(), isosurface, &window);
+  dialog->adjustSize();
+  // At the right: the scene, which follows its slider, stays in sight.
+  constexpr int kMargin = 24;
+  dialog->move(window.mapToGlobal(
+      QPoint(window.width() - dialog->width() - kMargin, (window.height() - dialog->height()) / 2)));
+  show(dialog);
 }
 
 }  // namespace footwall::ui

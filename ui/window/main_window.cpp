@@ -217,6 +217,9 @@ void MainWindow::connect_workbench() {
   connect(&bench.engine, &EngineLink::state_changed, this, &MainWindow::show_engine_state);
   connect(&bench.engine, &EngineLink::state_changed, this, &MainWindow::show_engine_banner);
   connect(&bench.engine, &EngineLink::state_changed, actions_, &Actions::refresh);
+  connect(&bench.surfaces, &Surfaces::surfaces_changed, this, &MainWindow::show_surface_banner);
+  connect(&bench.selection, &Selection::active_fault_changed, this, &MainWindow::show_surface_banner);
+  connect(&bench.picking, &Picking::active_pillar_changed, this, &MainWindow::show_surface_banner);
   connect(&bench.sections, &SectionReader::failed, this,
           [this](QObject*, const QString& message, const QString& hint) {
             section_failed_ = true;
@@ -283,6 +286,21 @@ void MainWindow::follow_changes() {
     if (watcher_ != nullptr && QFileInfo::exists(one) && !watcher_->files().contains(one))
       watcher_->addPath(one);
   }
+}
+
+// A fault that has just lost its surface says why where the eye is, but not in the middle of a gesture.
+void MainWindow::show_surface_banner() {
+  const Id id = workbench_ ? workbench_->selection.active_fault() : 0;
+  const Fault* fault = id != 0 ? workbench_->document.fault(id) : nullptr;
+  if (fault != nullptr && (workbench_->document.is_provisional(id) || workbench_->picking.active_pillar() != 0))
+    return;
+  const QString problem = fault != nullptr ? workbench_->surfaces.problem(id) : QString();
+  if (problem.isEmpty() || fault->pillars.size() < 2 || workbench_->surfaces.surface(id))
+    return banners_->remove(QStringLiteral("surface"));
+  banners_->show_banner(
+      QStringLiteral("surface"),
+      {.kind = BannerArea::Kind::kWarning,
+       .text = tr("%1 has no surface: %2").arg(QString::fromStdString(fault->record.name), problem)});
 }
 
 void MainWindow::show_engine_banner() {

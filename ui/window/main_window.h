@@ -66,6 +66,7 @@ class MainWindow final : public QMainWindow {
   void connect_workbench();
   void show_lasting_banners(const QString& held);
   void show_engine_banner();
+  void show_surface_banner();
   void show_engine_state();
   void relink_missing(const QString& volume);
   void follow_changes();
