@@ -2,6 +2,7 @@
 
 #include <QJsonDocument>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -10,6 +11,7 @@
 namespace footwall::ui {
 namespace {
 
+constexpr auto kStoreAfter = std::chrono::milliseconds(1000);
 constexpr const char* kDisplaySetting = "studio.display";
 
 // Heights are drawn so that the survey is a third as high as it is wide, in whole steps; true where it is already.
@@ -51,13 +53,21 @@ Workbench::Workbench(project::Project opened, const EngineLink::Options& engine_
   QObject::connect(&display, &Display::samples_changed, &engine, [this] {
     if (display.volume() != engine.volume()) engine.set_volume(display.volume());
   });
+  display_changed_.setSingleShot(true);
+  display_changed_.setInterval(kStoreAfter);
+  QObject::connect(&display, &Display::changed, &display_changed_, qOverload<>(&QTimer::start));
+  QObject::connect(&display_changed_, &QTimer::timeout, &display_changed_, [this] { store_display(); });
   if (display.volume() != 0) engine.set_volume(display.volume());
   if (engine_options.starts_at_once && display.volume() != 0) engine.start();
 }
 
 Workbench::~Workbench() {
+  if (!document.read_only()) surfaces.store_live_run();
+  store_display();
+}
+
+void Workbench::store_display() {
   if (document.read_only()) return;
-  surfaces.store_live_run();
   try {
     const QByteArray json = QJsonDocument(display.to_json()).toJson(QJsonDocument::Compact);
     document.store().set_setting(kDisplaySetting, json.toStdString());

@@ -1,5 +1,6 @@
 // Everything that one window works on. Widgets hold a reference and live shorter.
 #pragma once
+#include <QTimer>
 #include <memory>
 
 #include "ui/model/display.h"
@@ -16,7 +17,8 @@ namespace footwall::ui {
 struct Workbench {
   // engine: nothing starts until it is needed.
   Workbench(project::Project project, const EngineLink::Options& engine);
-  // Stores what is shown (Display) in the project.
+  // Stores what is shown (Display) in the project; that also happens a moment after each change, so that a
+  // program that is killed loses none of it.
   ~Workbench();
 
   Document document;
@@ -27,6 +29,10 @@ struct Workbench {
   EngineLink engine;
   Surfaces surfaces;
   Jobs jobs;
+
+ private:
+  void store_display();
+  QTimer display_changed_;
 };
 
 // A project by path. For writing; where somebody else writes it, for reading, and

@@ -246,7 +246,9 @@ void MainWindow::show_lasting_banners(const QString& held) {
     if (QFileInfo::exists(path + QStringLiteral("-wal"))) watcher_->addPath(path + QStringLiteral("-wal"));
     connect(watcher_, &QFileSystemWatcher::fileChanged, follow_, qOverload<>(&QTimer::start));
   }
-  const std::vector<std::string> notices = document.project().notices();
+  // Who holds it stands in the banner above.
+  const std::vector<std::string> notices =
+      held.isEmpty() ? document.project().notices() : std::vector<std::string>();
   for (std::size_t n = 0; n < notices.size(); ++n) {
     banners_->show_banner(
         QStringLiteral("notice-%1").arg(n),
