@@ -44,6 +44,7 @@ EngineLink::EngineLink(Document& document, const Options& options, QObject* pare
     here([this, state, text = QString::fromStdString(text)] {
       private_->state = state;
       private_->text = text;
+      if (state == State::kReady) private_->pictures->engine_came();
       Q_EMIT state_changed();
     });
   };

@@ -104,10 +104,20 @@ std::uint64_t PictureThread::draw(PictureRequest request, std::vector<EngineVolu
     const std::scoped_lock lock(mutex_);
     number = ++last_;
     wanted_ = Wanted{number, std::move(request), std::move(volumes)};
+    without_engine_.reset();
     job_.cancel();
   }
   wake_.notify_all();
   return number;
+}
+
+void PictureThread::engine_came() {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (!without_engine_ || wanted_) return;
+    wanted_ = std::exchange(without_engine_, std::nullopt);
+  }
+  wake_.notify_all();
 }
 
 void PictureThread::work() {
@@ -128,8 +138,17 @@ void PictureThread::work() {
 }
 
 void PictureThread::make(const Wanted& wanted, const JobContext& job) {
-  const auto connection = events_.connection();
-  if (!connection) return;  // asked for again when there is an engine
+  auto connection = events_.connection();
+  if (!connection) {
+    const std::scoped_lock lock(mutex_);
+    if (wanted_) return;  // a newer one
+    // It may have come since the question, and engine_came() been called already.
+    connection = events_.connection();
+    if (!connection) {
+      without_engine_ = wanted;
+      return;
+    }
+  }
   service::EngineClient client(*connection);
   std::vector<std::string> volumes;
   for (const EngineVolume& volume : wanted.volumes) {

@@ -33,8 +33,9 @@ class PictureThread {
   PictureThread(const PictureThread&) = delete;
   PictureThread& operator=(const PictureThread&) = delete;
 
-  // volumes: of the request's isosurfaces, in their order.
+  // volumes: of the request's isosurfaces, in their order. Without an engine it waits for engine_came().
   std::uint64_t draw(PictureRequest request, std::vector<EngineVolume> volumes);
+  void engine_came();
 
  private:
   struct Wanted {
@@ -49,6 +50,7 @@ class PictureThread {
   std::mutex mutex_;
   std::condition_variable wake_;
   std::optional<Wanted> wanted_;
+  std::optional<Wanted> without_engine_;  // came when there was none
   JobContext job_;
   std::uint64_t last_ = 0;
   bool ends_ = false;

@@ -4,6 +4,7 @@
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
+#include <QImage>
 #include <QTextBrowser>
 #include <QTextTable>
 #include <QVBoxLayout>
@@ -14,6 +15,21 @@ namespace footwall::ui {
 namespace {
 
 constexpr double kMargin = 20;
+constexpr int kPictureWidth = 780;  // of pictures that are wider
+
+// Pictures no wider than the window is at first.
+class GuideBrowser final : public QTextBrowser {
+ public:
+  using QTextBrowser::QTextBrowser;
+  QVariant loadResource(int type, const QUrl& name) override {
+    const QVariant found = QTextBrowser::loadResource(type, name);
+    if (type != QTextDocument::ImageResource) return found;
+    const QImage image = found.typeId() == QMetaType::QByteArray ? QImage::fromData(found.toByteArray())
+                                                                  : found.value<QImage>();
+    if (image.width() <= kPictureWidth) return image;
+    return image.scaledToWidth(kPictureWidth, Qt::SmoothTransformation);
+  }
+};
 
 }  // namespace
 
@@ -48,7 +64,7 @@ QString shortcut_list(const Actions& actions) {
 
 HelpWindow::HelpWindow(QWidget* parent) : QDialog(parent) {
   resize(860, 720);
-  browser_ = new QTextBrowser(this);
+  browser_ = new GuideBrowser(this);
   browser_->setOpenExternalLinks(false);
   browser_->setFrameShape(QFrame::NoFrame);
   auto* whole = new QVBoxLayout(this);

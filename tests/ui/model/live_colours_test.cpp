@@ -37,6 +37,7 @@ class LiveColoursTest final : public QObject {
   Q_OBJECT
 
  private Q_SLOTS:
+  void a_picture_asked_for_before_the_engine_runs_comes();
   void surfaces_are_made_without_an_engine();
   void numbers_are_those_of_a_run();
   void colours_follow_a_hand_and_go_on_after_a_death();
@@ -62,6 +63,39 @@ void LiveColoursTest::surfaces_are_made_without_an_engine() {
   QTRY_VERIFY_WITH_TIMEOUT(surfaces.surface(fault) == nullptr, kPatience);
   document.undo();
   QTRY_VERIFY_WITH_TIMEOUT(surfaces.surface(fault) != nullptr, kPatience);
+}
+
+void LiveColoursTest::a_picture_asked_for_before_the_engine_runs_comes() {
+  const SampleProject sample;
+  Document document(sample.open());
+  EngineLink engine(document, {.ranks = 1, .connection = {}});
+  QSignalSpy pictures(&engine, &EngineLink::picture);
+  QSignalSpy failed(&engine, &EngineLink::failed);
+  PictureRequest wanted;
+  wanted.perspective = false;
+  wanted.width = wanted.height = 32;
+  // Straight down on the middle sample: clip space from voxels, and the volume's index space is the scene.
+  wanted.view_projection = {2. / 48, 0, 0, -1, 0, 2. / 40, 0, -1, 0, 0, 1. / 64, 0, 0, 0, 0, 1};
+  wanted.eye = {24, 20, 100};
+  wanted.right = {1, 0, 0};
+  wanted.up = {0, 1, 0};
+  wanted.forward = {0, 0, -1};
+  wanted.isosurfaces.push_back({.volume = document.volumes().front().id,
+                                .value = 0.5F,
+                                .colour = qRgb(200, 100, 50),
+                                .linear = {1, 0, 0, 0, 1, 0, 0, 0, 1}});
+  const std::uint64_t number = engine.draw(wanted);
+  QVERIFY(number != 0);
+  QTest::qWait(50);  // the link has found out that there is no engine; if not, the picture comes all the same
+  engine.start();
+  const auto whole = [&] {
+    return std::ranges::any_of(pictures, [&](const QList<QVariant>& said) {
+      const auto picture = said.front().value<std::shared_ptr<const Picture>>();
+      return picture->request == number && picture->last;
+    });
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(whole(), kPatience);
+  QCOMPARE(failed.size(), 0);
 }
 
 void LiveColoursTest::numbers_are_those_of_a_run() {
