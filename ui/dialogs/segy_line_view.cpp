@@ -110,8 +110,10 @@ void SegyLineView::paintEvent(QPaintEvent*) {
     const double x = area.left() + area.width() * ((n - across.first) / across.step + 0.5) /
                                        static_cast<double>(across.count);
     painter.drawLine(QPointF(x, area.top() - 4), QPointF(x, area.top()));
-    painter.drawText(QRectF(x - 40, 0, 80, area.top() - 4), Qt::AlignHCenter | Qt::AlignBottom,
-                     QString::number(n, 'f', 0));
+    const QString number = QString::number(n, 'f', 0);
+    const double width = metrics.horizontalAdvance(number) + 2;
+    const double left = std::max(x - width / 2, area.left());  // clear of the unit
+    painter.drawText(QRectF(left, 0, width, area.top() - 4), Qt::AlignLeft | Qt::AlignBottom, number);
   }
 }
 

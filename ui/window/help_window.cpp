@@ -5,7 +5,9 @@
 #include <QFile>
 #include <QFileInfo>
 #include <QImage>
+#include <QTextBlock>
 #include <QTextBrowser>
+#include <QTextCursor>
 #include <QTextTable>
 #include <QVBoxLayout>
 
@@ -16,6 +18,19 @@ namespace {
 
 constexpr double kMargin = 20;
 constexpr int kPictureWidth = 780;  // of pictures that are wider
+
+// Room between paragraphs, and more above headings; tables stay tight.
+void space_out(QTextDocument& document) {
+  constexpr double kParagraph = 5, kHeading = 16;
+  for (QTextBlock block = document.begin(); block.isValid(); block = block.next()) {
+    QTextCursor cursor(block);
+    if (cursor.currentTable() != nullptr) continue;
+    QTextBlockFormat format = block.blockFormat();
+    format.setTopMargin(format.headingLevel() > 0 ? kHeading : kParagraph);
+    format.setBottomMargin(kParagraph);
+    cursor.setBlockFormat(format);
+  }
+}
 
 // Pictures no wider than the window is at first.
 class GuideBrowser final : public QTextBrowser {
@@ -97,6 +112,7 @@ void HelpWindow::show_text(const QString& title, const QString& markdown) {
     plain.setCellSpacing(0);
     table->setFormat(plain);
   }
+  space_out(*browser_->document());
   show();
   raise();
   activateWindow();
