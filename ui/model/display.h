@@ -119,7 +119,7 @@ class Display final : public QObject {
   std::vector<ShownSection> sections_;
   Id last_id_ = 0;
   int step_ = 1;
-  double fade_distance_ = 5;
+  double fade_distance_ = 15;
   double exaggeration_ = 1;
   bool perspective_ = true;
   std::optional<survey::IndexPoint> cursor_;
