@@ -289,11 +289,14 @@ void MainWindow::show_engine_banner() {
   if (!workbench_ || workbench_->engine.state() != EngineLink::State::kLost) {
     return banners_->remove(QStringLiteral("engine"));
   }
+  const QDateTime last = workbench_->engine.answered_at();
   banners_->show_banner(
       QStringLiteral("engine"),
       {.kind = BannerArea::Kind::kWarning,
-       .text =
-           tr("Engine %1. Colours are as of the last answer.").arg(workbench_->engine.state_text()),
+       .text = tr("Engine %1.").arg(workbench_->engine.state_text()),
+       .hint = last.isValid() ? tr("colours are from %1; faults can be edited all the same")
+                                    .arg(last.toString(QStringLiteral("HH:mm")))
+                              : tr("there are no live colours; faults can be edited all the same"),
        .buttons = {{tr("Restart"), [this] {
                       if (workbench_) workbench_->engine.start();
                     }}}});
