@@ -1,5 +1,6 @@
-// Many random gestures, all taken back, all done again: the interpretation's tables are byte for byte what they were, and
-// what the editor keeps in memory is at any time what is on disk. Prints what an edit costs early and late.
+// Many random gestures, all taken back, all done again: the interpretation's tables are byte for byte what
+// they were, and what the editor keeps in memory is at any time what is on disk. Prints what an edit costs
+// early and late.
 #include <fmt/format.h>
 
 #include <QElapsedTimer>
@@ -121,7 +122,8 @@ void RandomEditsTest::undone_are_the_start_and_redone_the_end() {
     }
   }
   const double late = probe();
-  qInfo("a node moved: %.2f ms at edit 100, %.2f ms at edit %d, of %zu kinds", early, late, edits, kinds.size());
+  qInfo("a node moved: %.2f ms at edit 100, %.2f ms at edit %d, of %zu kinds", early, late, edits,
+        kinds.size());
   QVERIFY2(kinds.size() >= 15, about(done, "too few kinds of gestures came to something"));
 
   // 1. Back to the start, forth to the end.
@@ -144,7 +146,8 @@ void RandomEditsTest::undone_are_the_start_and_redone_the_end() {
 
   // 2. The same by one click in the history.
   QVERIFY(document.go_to_step(document.history()[before - 1].id));
-  QVERIFY2(interpretation_text(sample.path()) == start, about(0, "the start is another one, gone to at once"));
+  QVERIFY2(interpretation_text(sample.path()) == start,
+           about(0, "the start is another one, gone to at once"));
   QVERIFY(document.project().check().ok());
 }
 
