@@ -143,8 +143,13 @@ bool Document::go_to_step(Id id) {
 
 void Document::refresh() {
   try {
-    survey_ = project_.survey();
-    reload_volumes();
+    // Views read their samples again after reload_volumes().
+    const auto same = [](const project::VolumeRecord& a, const project::VolumeRecord& b) {
+      return a.id == b.id && a.name == b.name && a.file == b.file && a.bytes == b.bytes && a.checksum == b.checksum &&
+             a.role == b.role;
+    };
+    const bool has_survey = project_.survey().has_value();
+    if (has_survey != survey_.has_value() || !std::ranges::equal(project_.volumes(), volumes_, same)) reload_volumes();
     history_ = project_.history();
     reload_interpretation();
     Q_EMIT history_changed();

@@ -241,7 +241,10 @@ void MainWindow::show_lasting_banners(const QString& held) {
                            .buttons = {{tr("Try again"), [this, path] { open_project(path); }}}});
     watcher_ = new QFileSystemWatcher({path}, this);
     if (QFileInfo::exists(path + QStringLiteral("-wal"))) watcher_->addPath(path + QStringLiteral("-wal"));
-    connect(watcher_, &QFileSystemWatcher::fileChanged, follow_, qOverload<>(&QTimer::start));
+    // Started once: somebody who edits without a pause would put it off for ever.
+    connect(watcher_, &QFileSystemWatcher::fileChanged, follow_, [this] {
+      if (!follow_->isActive()) follow_->start();
+    });
   }
   const std::vector<std::string> notices = document.project().notices();
   for (std::size_t n = 0; n < notices.size(); ++n) {
