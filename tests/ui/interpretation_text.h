@@ -1,4 +1,5 @@
-// The tables under undo as text, every column of every row exactly: what two states of an interpretation are compared by.
+// The tables under undo as text, every column of every row exactly: what two states of an interpretation are
+// compared by.
 #pragma once
 #include <sqlite3.h>
 
@@ -29,8 +30,8 @@ inline std::string interpretation_text(const std::filesystem::path& path) {
   };
   std::string all;
   for (const std::string table : {"fault", "pillar", "pillar_node", "surface"}) {
-    std::string columns = run("SELECT group_concat('quote(' || name || ')', '||''|''||') FROM pragma_table_info('" +
-                              table + "')");
+    std::string columns = run(
+        "SELECT group_concat('quote(' || name || ')', '||''|''||') FROM pragma_table_info('" + table + "')");
     columns.pop_back();
     all += table + "\n" + run("SELECT " + columns + " FROM " + table + " ORDER BY id");
   }

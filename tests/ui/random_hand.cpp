@@ -53,14 +53,16 @@ const Fault* RandomHand::some_fault(bool with_pillars) {
 
 std::set<Id> RandomHand::some_pillars(const Fault& fault, std::size_t most) {
   std::set<Id> pillars;
-  for (std::size_t n = 1 + below(most); n > 0; --n) pillars.insert(fault.pillars[below(fault.pillars.size())].id);
+  for (std::size_t n = 1 + below(most); n > 0; --n)
+    pillars.insert(fault.pillars[below(fault.pillars.size())].id);
   return pillars;
 }
 
 Section RandomHand::some_section() {
   Section section;
   section.kind = static_cast<Section::Kind>(below(3));
-  section.index = static_cast<std::int64_t>(below(static_cast<std::size_t>(last_index(section, *document_.survey()) + 1)));
+  section.index = static_cast<std::int64_t>(
+      below(static_cast<std::size_t>(last_index(section, *document_.survey()) + 1)));
   return section;
 }
 
@@ -99,7 +101,8 @@ void RandomHand::click(const Pointer& pointer) {
   picking_.release(pointer);
 }
 
-void RandomHand::drag(const Pointer& from, const PlanePoint& to, bool gives_up, std::chrono::milliseconds pace) {
+void RandomHand::drag(const Pointer& from, const PlanePoint& to, bool gives_up,
+                      std::chrono::milliseconds pace) {
   const PlanePoint begin = plane_of(from.section, from.place);
   picking_.move(from);
   picking_.press(from);
@@ -107,7 +110,8 @@ void RandomHand::drag(const Pointer& from, const PlanePoint& to, bool gives_up, 
   for (int n = 1; n <= kMoves; ++n) {
     const double part = static_cast<double>(n) / kMoves;
     const double aside = std::sin(part * 3) * 2;
-    const Pointer p = at(from.section, {begin.u + part * (to.u - begin.u) + aside, begin.v + part * (to.v - begin.v)});
+    const Pointer p =
+        at(from.section, {begin.u + part * (to.u - begin.u) + aside, begin.v + part * (to.v - begin.v)});
     clock_ += pace;
     picking_.move(p);
   }

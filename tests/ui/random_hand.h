@@ -1,4 +1,5 @@
-// A hand that picks, drags and gives commands at random, as a user does in a day: the same gestures for the same seed.
+// A hand that picks, drags and gives commands at random, as a user does in a day: the same gestures for the
+// same seed.
 #pragma once
 #include <QString>
 #include <random>

@@ -1,6 +1,6 @@
-// A node dragged in a section of the whole window, with an engine: how long until its triangles are painted in their new
-// colours, what memory 10^4 moves cost, and how long the window takes to open. First the colours after a drag are
-// compared with those of a run. Needs a screen:
+// A node dragged in a section of the whole window, with an engine: how long until its triangles are painted
+// in their new colours, what memory 10^4 moves cost, and how long the window takes to open. First the colours
+// after a drag are compared with those of a run. Needs a screen:
 //   python3 tests/ui/on_a_screen.py build/release/bin/bench_drag PROJECT [MOVES]
 #include <fmt/format.h>
 
@@ -177,7 +177,8 @@ void measure_memory(MainWindow& window, Hand& hand, int moves) {
   const auto tell = [&](int n) {
     require(QTest::qWaitFor([&] { return window.workbench()->surfaces.is_settled(); }, kPatience), "settled");
     fmt::print("after {:>6} moves: the editor {:.1f} MiB", n, resident("self"));
-    for (const auto& rank : status.each_rank()) fmt::print(", a rank {:.1f} MiB", resident(std::to_string(rank.process())));
+    for (const auto& rank : status.each_rank())
+      fmt::print(", a rank {:.1f} MiB", resident(std::to_string(rank.process())));
     fmt::print("\n");
   };
   std::vector<double> ms;
@@ -209,7 +210,8 @@ int main(int argc, char** argv) {
     require(QTest::qWaitForWindowExposed(&window), "a window");
     open(window, QString::fromLocal8Bit(argv[1]));
     Hand hand(window);
-    require(QTest::qWaitFor([&] { return window.is_settled() && hand.is_fresh(); }, kPatience), "fresh colours");
+    require(QTest::qWaitFor([&] { return window.is_settled() && hand.is_fresh(); }, kPatience),
+            "fresh colours");
     check(window, hand);
     measure_latency(window, hand);
     measure_memory(window, hand, argc > 2 ? std::atoi(argv[2]) : 11000);

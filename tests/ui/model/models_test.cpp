@@ -1,5 +1,5 @@
-// The models that views show, watched by Qt's own tester while a hand edits at random, jobs come and go, and an engine
-// answers: each change is announced as it happens.
+// The models that views show, watched by Qt's own tester while a hand edits at random, jobs come and go, and
+// an engine answers: each change is announced as it happens.
 #include <QAbstractItemModelTester>
 #include <QTest>
 
@@ -36,7 +36,8 @@ void ModelsTest::announce_what_changes() {
   std::mt19937 random(8);
   const auto some_row = [&](const QModelIndex& heading) {
     const int rows = tree.rowCount(heading);
-    return rows == 0 ? QModelIndex() : tree.index(static_cast<int>(random() % static_cast<unsigned>(rows)), 0, heading);
+    return rows == 0 ? QModelIndex()
+                     : tree.index(static_cast<int>(random() % static_cast<unsigned>(rows)), 0, heading);
   };
   int answers = 0, ended = 0;
   connect(&bench.engine, &EngineLink::numbers, this, [&] { ++answers; });

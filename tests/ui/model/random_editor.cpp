@@ -1,8 +1,9 @@
-// An editor without a window that is made to be killed (kill_test.py): it edits at random, and says after each finished
-// gesture, unbuffered, what the interpretation is then.
+// An editor without a window that is made to be killed (kill_test.py): it edits at random, and says after
+// each finished gesture, unbuffered, what the interpretation is then.
 //   random_editor new PROJECT        makes a project with some faults
-//   random_editor edit PROJECT SEED  "NUMBER DIGEST" a line, without end; the same for the same seed and project
-//   random_editor look PROJECT       opens it for writing, as after a crash; its digest where it is whole, else why not
+//   random_editor edit PROJECT SEED  "NUMBER DIGEST" a line, without end; the same for the same seed and
+//   project random_editor look PROJECT       opens it for writing, as after a crash; its digest where it is
+//   whole, else why not
 #include <fmt/format.h>
 
 #include <QCoreApplication>

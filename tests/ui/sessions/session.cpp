@@ -23,7 +23,8 @@ namespace footwall::ui {
 namespace {
 
 constexpr int kPatience = 30000;
-constexpr quint64 kMillisecondsApart = 60;  // of two events, as views see it: a stroke of five moves is a slow one
+constexpr quint64 kMillisecondsApart =
+    60;  // of two events, as views see it: a stroke of five moves is a slow one
 
 const std::array<std::pair<Section::Kind, QString>, 3> kKinds{
     std::pair{Section::Kind::kInline, QStringLiteral("inline")},
@@ -51,8 +52,8 @@ QString label_of(const QWidget& widget) {
   int number = 0;
   for (const QObject* other : widget.parentWidget()->children()) {
     if (other == &widget) break;
-    const bool alike = other->isWidgetType() && other->objectName().isEmpty() &&
-                       other->metaObject() == widget.metaObject();
+    const bool alike =
+        other->isWidgetType() && other->objectName().isEmpty() && other->metaObject() == widget.metaObject();
     number += alike ? 1 : 0;
   }
   return QStringLiteral("%1#%2").arg(QString::fromLatin1(widget.metaObject()->className())).arg(number);
@@ -138,7 +139,8 @@ void send_mouse(QEvent::Type type, QWidget& widget, const QJsonObject& line, qui
   const Qt::MouseButton button = button_of(line);
   const bool moves = type == QEvent::MouseMove;
   const Qt::MouseButtons held = type == QEvent::MouseButtonRelease ? Qt::NoButton : button;
-  QMouseEvent event(type, at, widget.mapToGlobal(at), moves ? Qt::NoButton : button, held, modifiers_of(line));
+  QMouseEvent event(type, at, widget.mapToGlobal(at), moves ? Qt::NoButton : button, held,
+                    modifiers_of(line));
   event.setTimestamp(time);
   QApplication::sendEvent(&widget, &event);
 }
@@ -170,8 +172,8 @@ void play_line(MainWindow& window, const QJsonObject& line, quint64 time) {
   if (what == QStringLiteral("keyup")) return send_key(QEvent::KeyRelease, *widget, line, time);
   if (what != QStringLiteral("wheel")) refuse(line, QStringLiteral("what is that?"));
   const QPointF at = pixel_of(*widget, line);
-  QWheelEvent event(at, widget->mapToGlobal(at), {}, {0, line["by"].toInt()}, Qt::NoButton, modifiers_of(line),
-                    Qt::NoScrollPhase, false);
+  QWheelEvent event(at, widget->mapToGlobal(at), {}, {0, line["by"].toInt()}, Qt::NoButton,
+                    modifiers_of(line), Qt::NoScrollPhase, false);
   event.setTimestamp(time);
   QApplication::sendEvent(widget, &event);
 }
@@ -191,7 +193,8 @@ std::vector<QJsonObject> read_session(const QString& path) {
     if (text.isEmpty() || text.startsWith('#')) continue;
     const QJsonDocument json = QJsonDocument::fromJson(text);
     if (!json.isObject())
-      throw Error(ErrorCode::kFormat, path.toStdString() + ":" + std::to_string(number) + " is no JSON object");
+      throw Error(ErrorCode::kFormat,
+                  path.toStdString() + ":" + std::to_string(number) + " is no JSON object");
     lines.push_back(json.object());
   }
   return lines;

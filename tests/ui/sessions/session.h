@@ -1,14 +1,15 @@
-// What a user did in a window, one JSON object a line, without times: played again, or written down while it happens.
+// What a user did in a window, one JSON object a line, without times: played again, or written down while it
+// happens.
 //
 //   {"do": "action", "id": "fault.new"}                                 a menu entry or shortcut
 //   {"do": "press", "in": "inline", "at": [10, 24], "keys": "Ctrl"}     also move, release, double
 //   {"do": "wheel", "in": "scene", "at": [24, 20, 30], "by": 120}
 //   {"do": "key", "in": "inline", "key": "X"}                           also keyup
 //
-// "in": "inline", "crossline", "slice" (the first of its kind), "scene", or a widget's path in the window. "at": voxels of
-// the section's plane; in the scene a place of the survey's index space; elsewhere, and where the scene is empty, "pixel".
-// "button": left, unless it says "middle" or "right"; of a move: what is held, "none" for nothing. Lines that begin with #
-// are comments.
+// "in": "inline", "crossline", "slice" (the first of its kind), "scene", or a widget's path in the window.
+// "at": voxels of the section's plane; in the scene a place of the survey's index space; elsewhere, and where
+// the scene is empty, "pixel". "button": left, unless it says "middle" or "right"; of a move: what is held,
+// "none" for nothing. Lines that begin with # are comments.
 #pragma once
 #include <QJsonObject>
 #include <QObject>

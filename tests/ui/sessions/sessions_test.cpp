@@ -1,7 +1,8 @@
-// Each *.jsonl beside this file, played in a window on a project without faults, gives the interpretation of the *.txt of
-// the same name. To make or change one:
-//   FOOTWALL_RECORD_SESSION=FILE.jsonl    opens that window on the screen and writes down what you do until it is closed
-//   FOOTWALL_WRITE_SESSIONS=1             writes each *.txt anew from what its session gives; read it before you keep it
+// Each *.jsonl beside this file, played in a window on a project without faults, gives the interpretation of
+// the *.txt of the same name. To make or change one:
+//   FOOTWALL_RECORD_SESSION=FILE.jsonl    opens that window on the screen and writes down what you do until
+//   it is closed FOOTWALL_WRITE_SESSIONS=1             writes each *.txt anew from what its session gives;
+//   read it before you keep it
 #include <QDir>
 #include <QFile>
 #include <QJsonArray>
@@ -27,7 +28,8 @@ struct Desk {
     window.resize(1500, 950);
     window.show();
     opened = window.open_project(QString::fromStdString(sample.path().string())) &&
-             QTest::qWaitForWindowExposed(&window) && QTest::qWaitFor([this] { return window.is_settled(); }, 30000);
+             QTest::qWaitForWindowExposed(&window) &&
+             QTest::qWaitFor([this] { return window.is_settled(); }, 30000);
   }
   SampleProject sample;
   MainWindow window{EngineLink::Options{}};

@@ -1,5 +1,5 @@
-// The window when its engine dies, cannot be started, or comes back: no edit is lost, and no old colour is taken for a new
-// one.
+// The window when its engine dies, cannot be started, or comes back: no edit is lost, and no old colour is
+// taken for a new one.
 #include <QTest>
 #include <csignal>
 
@@ -38,8 +38,8 @@ struct Desk {
     const survey::PillarNode before = node();
     survey::WorldPoint p = before.position;
     p.x += by;
-    const bool done = bench().document.edit(QStringLiteral("Move node"),
-                                            [&](project::Interpretation& now) { now.move_node(before.id, p); });
+    const bool done = bench().document.edit(
+        QStringLiteral("Move node"), [&](project::Interpretation& now) { now.move_node(before.id, p); });
     return done && sample.open(project::OpenMode::kRead).pillars(fault())[1].nodes[1].position.x == p.x;
   }
 
@@ -97,7 +97,9 @@ void EngineWindowTest::gives_up_after_three_deaths_and_starts_again_when_asked()
   int starts = 0;
   connect(&desk.bench().engine, &EngineLink::state_changed, this,
           [&] { starts += desk.bench().engine.state() == EngineLink::State::kStarting ? 1 : 0; });
-  const auto is_ready = [&] { return desk.is_fresh() && desk.bench().engine.state() == EngineLink::State::kReady; };
+  const auto is_ready = [&] {
+    return desk.is_fresh() && desk.bench().engine.state() == EngineLink::State::kReady;
+  };
   for (int death = 0; death < 3; ++death) {
     QTRY_VERIFY_WITH_TIMEOUT(is_ready(), kPatience);
     const int before = starts;
