@@ -3,6 +3,7 @@
 // after a drag are compared with those of a run. Needs a screen:
 //   python3 tests/ui/on_a_screen.py build/release/bin/bench_drag PROJECT [MOVES]
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <QApplication>
 #include <QElapsedTimer>
@@ -18,6 +19,7 @@
 #include "engine/service/client/engine_client.h"
 #include "engine/tasks/extract_run.h"
 #include "storage/base/error.h"
+#include "ui/scene3d/scene_view.h"
 #include "ui/section/section_view.h"
 #include "ui/window/main_window.h"
 #include "ui/window/view_area.h"
@@ -69,13 +71,13 @@ class Hand {
       if (one->section() == section_) canvas_ = one;
     }
     require(canvas_ != nullptr, "a view of that inline");
-    scene_ = qobject_cast<QOpenGLWidget*>(window.views()->scene()->view());
+    scene_ = qobject_cast<SceneView*>(window.views()->scene()->view());
     require(scene_ != nullptr, "a scene");
     bench_.picking.set_tool(Tool::kPick);
   }
 
   Id fault() const { return fault_; }
-  QOpenGLWidget& scene() const { return *scene_; }
+  SceneView& scene() const { return *scene_; }
   bool is_fresh() const {
     return bench_.surfaces.is_settled() && bench_.surfaces.freshness(fault_, "variance") == Freshness::kFresh;
   }
@@ -99,7 +101,7 @@ class Hand {
   footwall::survey::IndexPoint place_;
   Section section_;
   SectionCanvas* canvas_ = nullptr;
-  QOpenGLWidget* scene_ = nullptr;
+  SceneView* scene_ = nullptr;
 };
 
 // To and fro, no place twice in a row.
@@ -147,6 +149,16 @@ void check(MainWindow& window, Hand& hand) {
   fmt::print("{} faces, as a run has them\n", values.size());
 }
 
+// Of this process, on all its threads: the window's, the triangulation's and those that draw.
+double processor_ms() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto ms = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_usec) * 1e-3;
+  };
+  return ms(usage.ru_utime) + ms(usage.ru_stime);
+}
+
 // Each move waits for its own colours on the screen.
 void measure_latency(MainWindow& window, Hand& hand) {
   Workbench& bench = *window.workbench();
@@ -156,6 +168,8 @@ void measure_latency(MainWindow& window, Hand& hand) {
   const auto b = QObject::connect(&hand.scene(), &QOpenGLWidget::frameSwapped, [&] { painted = answered; });
   std::vector<double> whole, handled;
   hand.press();
+  const std::uint64_t frames = hand.scene().counters().frames;
+  const double processor = processor_ms();
   for (int n = 0; n < kSingleMoves; ++n) {
     QElapsedTimer timer;
     timer.start();
@@ -165,6 +179,9 @@ void measure_latency(MainWindow& window, Hand& hand) {
     require(QTest::qWaitFor([&] { return painted; }, kPatience), "a frame with the answered colours");
     whole.push_back(ms_of(timer));
   }
+  fmt::print("{:<38} {:.1f} frames of the scene, {:.1f} ms of processors\n", "a move costs",
+             static_cast<double>(hand.scene().counters().frames - frames) / kSingleMoves,
+             (processor_ms() - processor) / kSingleMoves);
   QObject::disconnect(a);
   QObject::disconnect(b);
   hand.release(swing(kSingleMoves - 1));
@@ -191,7 +208,7 @@ void measure_memory(MainWindow& window, Hand& hand, int moves) {
     hand.move(swing(n));
     QCoreApplication::processEvents();
     ms.push_back(ms_of(timer));
-    if (n == moves / 11 || n == moves) tell(n);
+    if (n == moves / 11 || n == moves / 11 * 6 || n == moves) tell(n);
   }
   hand.release(swing(moves));
   print("a move in a stream, events handled", ms);
