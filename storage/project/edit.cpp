@@ -63,8 +63,8 @@ std::optional<std::string> Project::redo() {
   return state_->write([&] { return detail::UndoLog(*state_->database).redo(); });
 }
 
-std::vector<HistoryStep> Project::history() const {
-  return detail::UndoLog(*state_->database).steps();
+std::vector<HistoryStep> Project::history(std::int64_t first) const {
+  return detail::UndoLog(*state_->database).steps(first);
 }
 
 }  // namespace footwall::project

@@ -123,7 +123,8 @@ class Project {
   // The step's name; nothing when there is no step (left).
   std::optional<std::string> undo();
   std::optional<std::string> redo();
-  std::vector<HistoryStep> history() const;  // oldest first
+  // Oldest first; those of this number and later ones.
+  std::vector<HistoryStep> history(std::int64_t first = 0) const;
 
   // Meshes. Stale: there is none, or the fault's shape changed since (undo makes it fresh again).
   void store_mesh(std::int64_t fault, const MeshRecord& mesh);

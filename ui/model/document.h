@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <unordered_map>
 #include <vector>
 
 #include "storage/base/error.h"
@@ -64,7 +65,8 @@ class Document final : public QObject {
   bool edit(const QString& name, const std::function<void(project::Interpretation&)>& change);
   bool undo();
   bool redo();
-  // To the state after the step of this number (0: before the first), by as many undos or redos as it takes.
+  // To the state after the step of this number (0: before the first), by as many undos or redos as it takes. Where one
+  // of them is refused, those before it stay done.
   bool go_to_step(Id step);
 
   // Reads again what others may have changed: for a project that somebody else writes.
@@ -89,9 +91,13 @@ class Document final : public QObject {
   void reload_volumes();
 
  private:
+  // Work in proportion to what differs, whatever the length of the history and the size of the faults that stay.
   void reload_interpretation();
+  void follow_change();
   void report(const Error& error);
-  bool step(const std::function<std::optional<std::string>()>& one);
+  bool step(std::int64_t undos, std::int64_t redos);
+  bool take_back();
+  bool bring_back();
 
   project::Project project_;
   std::optional<survey::Geometry> survey_;
@@ -99,8 +105,8 @@ class Document final : public QObject {
   std::vector<project::VolumeRecord> volumes_;
   std::vector<project::HistoryStep> history_;
   std::map<Id, std::size_t> place_of_fault_;
-  std::map<Id, Id> fault_of_pillar_;
-  std::map<Id, Id> fault_of_node_;
+  std::unordered_map<Id, Id> fault_of_pillar_;
+  std::unordered_map<Id, Id> fault_of_node_;
   std::map<Id, std::vector<survey::Pillar>> provisional_;
 };
 

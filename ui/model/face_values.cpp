@@ -8,6 +8,7 @@ namespace footwall::ui {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uint64_t kNotTold = std::numeric_limits<std::uint64_t>::max();
 constexpr double kFewestSamples = 30;  // below, a face is left out of rankings
 
 }  // namespace
@@ -16,21 +17,21 @@ void FaceValues::set_surface(std::shared_ptr<const FaultSurface> surface) {
   const std::shared_ptr<const FaultSurface> before = std::exchange(surface_, std::move(surface));
   const auto former_places = std::exchange(places_, {});
   const auto former_values = std::exchange(values_, {});
-  const auto former_stale = std::exchange(stale_, {});
+  const auto former_computed = std::exchange(computed_at_, {});
+  const auto former_moved = std::exchange(moved_under_, {});
   if (surface_ == nullptr) return;
   const std::size_t count = surface_->faces.size();
-  stale_.assign(count, 1);
-  moved_.assign(count, 1);
-  std::vector<std::size_t> from(count, former_stale.size());
+  computed_at_.assign(count, std::nullopt);
+  moved_under_.assign(count, kNotTold);
+  std::vector<std::size_t> from(count, former_computed.size());
   for (std::size_t f = 0; f < count; ++f) {
     const std::pair<Id, std::int32_t> name{surface_->faces[f].panel, surface_->faces[f].n};
     places_.emplace_hint(places_.end(), name, f);
     const auto found = former_places.find(name);
     if (found == former_places.end()) continue;
     from[f] = found->second;
-    const bool stands = before->lattice[found->second] == surface_->lattice[f];
-    stale_[f] = stands ? former_stale[found->second] : std::uint8_t{1};
-    moved_[f] = stands ? 0 : 1;
+    computed_at_[f] = former_computed[found->second];
+    if (before->lattice[found->second] == surface_->lattice[f]) moved_under_[f] = former_moved[found->second];
   }
   for (const auto& [statistic, old] : former_values) {
     std::vector<double>& now = values_[statistic];
@@ -43,26 +44,48 @@ void FaceValues::set_surface(std::shared_ptr<const FaultSurface> surface) {
 
 std::size_t FaceValues::place_of(Id panel, std::int32_t number) const {
   const auto found = places_.find({panel, number});
-  return found == places_.end() ? stale_.size() : found->second;
+  return found == places_.end() ? computed_at_.size() : found->second;
 }
 
 std::vector<double>& FaceValues::column(const std::string& statistic) {
   std::vector<double>& values = values_[statistic];
-  values.resize(stale_.size(), kUnknown);
+  values.resize(computed_at_.size(), kUnknown);
   return values;
 }
 
-void FaceValues::set(Id panel, std::int32_t number, const survey::LatticeTriangle* corners,
+void FaceValues::set(Id panel, std::int32_t number, const survey::LatticeTriangle& corners,
                      const std::string& statistic, double value) {
   const std::size_t place = place_of(panel, number);
-  if (place == stale_.size()) return;
+  if (place == computed_at_.size()) return;
   column(statistic)[place] = value;
-  stale_[place] = corners != nullptr && *corners != surface_->lattice[place] ? 1 : 0;
+  computed_at_[place] = corners;
 }
 
-void FaceValues::set_geometry(std::size_t face, const std::string& statistic, double value) {
+void FaceValues::take(const std::vector<Id>& panels, const std::vector<std::int32_t>& numbers,
+                      const std::map<std::string, std::vector<double>>& statistics,
+                      const std::vector<std::size_t>& rows, std::uint64_t edit) {
+  std::vector<std::pair<std::size_t, std::size_t>> placed;  // row, place
+  placed.reserve(rows.size());
+  for (const std::size_t row : rows) {
+    const std::size_t place = place_of(panels[row], numbers[row]);
+    if (place == computed_at_.size()) continue;
+    placed.emplace_back(row, place);
+    computed_at_[place] = moved_under_[place] <= edit ? std::optional(surface_->lattice[place]) : std::nullopt;
+  }
+  if (placed.empty()) return;
+  for (const auto& [statistic, values] : statistics) {
+    std::vector<double>& into = column(statistic);
+    for (const auto& [row, place] : placed) into[place] = values[row];
+  }
+}
+
+void FaceValues::tell_moved(std::uint64_t edit) {
+  std::ranges::replace(moved_under_, kNotTold, edit);
+}
+
+void FaceValues::set_geometry(const std::string& statistic, std::vector<double> values) {
   geometry_.insert(statistic);
-  column(statistic)[face] = value;
+  values_[statistic] = std::move(values);
 }
 
 void FaceValues::scale(const std::string& product, const std::string& factor, const std::string& other) {
@@ -73,12 +96,15 @@ void FaceValues::scale(const std::string& product, const std::string& factor, co
   for (std::size_t f = 0; f < into.size(); ++f) into[f] = a->second[f] * b->second[f];
 }
 
-void FaceValues::mark_stale_since_sent() {
-  for (std::size_t f = 0; f < stale_.size(); ++f) stale_[f] |= moved_[f];
+bool FaceValues::is_stale(std::size_t face) const {
+  return computed_at_[face] != surface_->lattice[face];
 }
 
 bool FaceValues::any_stale() const {
-  return std::ranges::any_of(stale_, [](std::uint8_t stale) { return stale != 0; });
+  for (std::size_t f = 0; f < computed_at_.size(); ++f) {
+    if (is_stale(f)) return true;
+  }
+  return false;
 }
 
 std::shared_ptr<const FaceNumbers> FaceValues::numbers(const std::string& statistic) const {
@@ -86,13 +112,14 @@ std::shared_ptr<const FaceNumbers> FaceValues::numbers(const std::string& statis
   if (found == values_.end()) return nullptr;
   auto numbers = std::make_shared<FaceNumbers>();
   numbers->values = found->second;
-  numbers->stale = stale_;
-  if (is_geometry(statistic)) numbers->stale.assign(stale_.size(), 0);
-  numbers->hatched.assign(stale_.size(), 0);
+  const std::size_t count = computed_at_.size();
+  numbers->stale.assign(count, 0);
+  if (!is_geometry(statistic)) {
+    for (std::size_t f = 0; f < count; ++f) numbers->stale[f] = is_stale(f) ? 1 : 0;
+  }
+  numbers->hatched.assign(count, 0);
   if (const auto counts = values_.find("count"); counts != values_.end()) {
-    for (std::size_t f = 0; f < stale_.size(); ++f) {
-      numbers->hatched[f] = counts->second[f] < kFewestSamples ? 1 : 0;
-    }
+    for (std::size_t f = 0; f < count; ++f) numbers->hatched[f] = counts->second[f] < kFewestSamples ? 1 : 0;
   }
   return numbers;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -16,32 +17,39 @@ class FaceValues {
  public:
   // The surface that the values are of from now on.
   void set_surface(std::shared_ptr<const FaultSurface> surface);
-  // Values of a face by its name, good for the face as it stands where `corners` are its own, or given none.
-  // Names that the surface does not have are passed over.
-  void set(Id panel, std::int32_t number, const survey::LatticeTriangle* corners, const std::string& statistic,
+  // A value of a face by its name, computed where its corners stood there. Names that the surface does not have are
+  // passed over.
+  void set(Id panel, std::int32_t number, const survey::LatticeTriangle& corners, const std::string& statistic,
            double value);
-  // What follows from the face's place alone, by its number in the surface; never stale.
-  void set_geometry(std::size_t face, const std::string& statistic, double value);
+  // Of many faces at once, as an engine answers: row r of all is of face (panels[r], numbers[r]), computed as the face
+  // stood under this edit. Takes the rows named.
+  void take(const std::vector<Id>& panels, const std::vector<std::int32_t>& numbers,
+            const std::map<std::string, std::vector<double>>& statistics, const std::vector<std::size_t>& rows,
+            std::uint64_t edit);
+  // The faces that moved when the surface was last set moved under this edit.
+  void tell_moved(std::uint64_t edit);
+  // What follows from the faces' places alone, in the surface's order; never stale.
+  void set_geometry(const std::string& statistic, std::vector<double> values);
   bool is_geometry(const std::string& statistic) const { return geometry_.contains(statistic); }
   // product = factor * other, face by face.
   void scale(const std::string& product, const std::string& factor, const std::string& other);
-  // Of an answer that was computed before the surface was last set: faces that moved since are stale after all.
-  void mark_stale_since_sent();
   bool is_known(const std::string& statistic) const { return values_.contains(statistic); }
-  // Of faces with any value, whether one is stale; of all faces, whether one has none.
+  // Whether a face has no value, or that of another place than it has now.
   bool any_stale() const;
   const std::map<std::string, std::vector<double>>& values() const { return values_; }
   std::shared_ptr<const FaceNumbers> numbers(const std::string& statistic) const;
 
  private:
   std::size_t place_of(Id panel, std::int32_t number) const;  // size() where there is none
+  bool is_stale(std::size_t face) const;
   std::vector<double>& column(const std::string& statistic);
 
   std::shared_ptr<const FaultSurface> surface_;
   std::map<std::pair<Id, std::int32_t>, std::size_t> places_;
   std::map<std::string, std::vector<double>> values_;
-  std::vector<std::uint8_t> stale_;
-  std::vector<std::uint8_t> moved_;  // by the last set_surface()
+  // Where each face stood when its values were computed; nothing where that is not known.
+  std::vector<std::optional<survey::LatticeTriangle>> computed_at_;
+  std::vector<std::uint64_t> moved_under_;  // the edit that moved each face last
   std::set<std::string> geometry_;
 };
 

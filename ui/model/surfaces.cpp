@@ -202,6 +202,7 @@ struct Surfaces::State {
     if (engine == nullptr || fault == 0) return;
     if (entry.surface != nullptr) {
       entry.edit = engine->put_fault(entry.surface);
+      entry.values.tell_moved(entry.edit);
     } else {
       engine->remove_fault(fault);
       entry.edit = 0;
@@ -211,16 +212,22 @@ struct Surfaces::State {
   // What needs no voxels is known at once.
   void set_geometry(Entry& entry) const {
     const FaultSurface& surface = *entry.surface;
-    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-      const extract::FaceGeometry geometry =
-          extract::face_geometry(*document.survey(), surface.lattice[f], velocity);
-      const auto set = [&](const char* name, double value) { entry.values.set_geometry(f, name, value); };
-      set("area_voxels", geometry.area_voxels);
-      set("area", geometry.area);
-      set("dip", geometry.dip);
-      set("dip_azimuth", geometry.dip_azimuth);
-      set("metres_along_normal", geometry.metres_along_normal);
+    std::map<std::string, std::vector<double>> columns;
+    const auto column = [&](const char* name) -> std::vector<double>& {
+      columns[name].reserve(surface.faces.size());
+      return columns[name];
+    };
+    auto &area_voxels = column("area_voxels"), &area = column("area"), &dip = column("dip"),
+         &azimuth = column("dip_azimuth"), &metres = column("metres_along_normal");
+    for (const survey::LatticeTriangle& triangle : surface.lattice) {
+      const extract::FaceGeometry geometry = extract::face_geometry(*document.survey(), triangle, velocity);
+      area_voxels.push_back(geometry.area_voxels);
+      area.push_back(geometry.area);
+      dip.push_back(geometry.dip);
+      azimuth.push_back(geometry.dip_azimuth);
+      metres.push_back(geometry.metres_along_normal);
     }
+    for (auto& [name, values] : columns) entry.values.set_geometry(name, std::move(values));
   }
 
   // ---- numbers ----
@@ -236,7 +243,7 @@ struct Surfaces::State {
       for (const auto& [statistic, values] : stored.statistics) {
         if (entry.values.is_geometry(statistic)) continue;
         for (std::size_t f = 0; f < values.size(); ++f) {
-          entry.values.set(stored.panels[f], stored.numbers[f], &stored.lattice[f], statistic, values[f]);
+          entry.values.set(stored.panels[f], stored.numbers[f], stored.lattice[f], statistic, values[f]);
         }
       }
       break;
@@ -245,25 +252,21 @@ struct Surfaces::State {
   }
 
   void take_answer(const EngineNumbers& answer) {
+    std::map<Id, std::vector<std::size_t>> rows;
+    for (std::size_t n = 0; n < answer.faults.size(); ++n) rows[answer.faults[n]].push_back(n);
     std::set<Id> changed;
-    for (const auto& [statistic, values] : answer.statistics) {
-      for (std::size_t n = 0; n < values.size(); ++n) {
-        const auto found = entries.find(answer.faults[n]);
-        if (found == entries.end()) continue;
-        found->second.values.set(answer.panels[n], answer.face_numbers[n], nullptr, statistic, values[n]);
-      }
+    for (const auto& [fault, of_fault] : rows) {
+      changed.insert(fault);
+      const auto found = entries.find(fault);
+      const auto known = answer.known.find(fault);
+      if (found == entries.end() || known == answer.known.end()) continue;
+      found->second.values.take(answer.panels, answer.face_numbers, answer.statistics, of_fault, known->second);
     }
-    for (const Id fault : answer.faults) changed.insert(fault);
     for (const Id fault : changed) {
       const auto found = entries.find(fault);
       if (found == entries.end()) continue;
       found->second.values.scale("offset", "offset_voxels", "metres_along_normal");
       found->second.numbers.clear();
-    }
-    // Surfaces that were put later than this answer have moved on: their moved faces are stale again.
-    for (const Id fault : changed) {
-      const auto found = entries.find(fault);
-      if (found != entries.end() && found->second.edit > answer.edit) found->second.values.mark_stale_since_sent();
     }
     if (!document_is_provisional()) kept_range.reset();
     Q_EMIT self.numbers_changed(changed);

@@ -35,9 +35,11 @@ class UndoLog {
   // Throws kCorrupt when the tables do not hold what the step left.
   std::optional<std::string> undo();
   std::optional<std::string> redo();
-  std::vector<HistoryStep> steps() const;
+  // Those of this number and later ones, oldest first.
+  std::vector<HistoryStep> steps(std::int64_t first) const;
 
  private:
+  std::int64_t first_undone() const;  // 0 where none is
   void check(const Bytes& changeset) const;
   void apply(const Bytes& changeset, const std::string& name);
   Database& database_;
