@@ -17,47 +17,52 @@ void FaceValues::set_surface(std::shared_ptr<const FaultSurface> surface) {
   const auto former_places = std::exchange(places_, {});
   const auto former_values = std::exchange(values_, {});
   const auto former_stale = std::exchange(stale_, {});
+  moved_.clear();
   if (surface_ == nullptr) return;
   const std::size_t count = surface_->faces.size();
-  stale_.assign(count, 1);
+  const std::size_t nowhere = before == nullptr ? 0 : before->faces.size();
   moved_.assign(count, 1);
-  std::vector<std::size_t> from(count, former_stale.size());
+  std::vector<std::size_t> from(count, nowhere);
   for (std::size_t f = 0; f < count; ++f) {
     const std::pair<Id, std::int32_t> name{surface_->faces[f].panel, surface_->faces[f].n};
     places_.emplace_hint(places_.end(), name, f);
     const auto found = former_places.find(name);
     if (found == former_places.end()) continue;
     from[f] = found->second;
-    const bool stands = before->lattice[found->second] == surface_->lattice[f];
-    stale_[f] = stands ? former_stale[found->second] : std::uint8_t{1};
-    moved_[f] = stands ? 0 : 1;
+    moved_[f] = before->lattice[found->second] == surface_->lattice[f] ? 0 : 1;
   }
   for (const auto& [statistic, old] : former_values) {
-    std::vector<double>& now = values_[statistic];
-    now.assign(count, kUnknown);
+    const std::vector<std::uint8_t>& old_stale = former_stale.at(statistic);
+    std::vector<double>& now = column(statistic);
+    std::vector<std::uint8_t>& stale = stale_[statistic];
     for (std::size_t f = 0; f < count; ++f) {
-      if (from[f] < old.size()) now[f] = old[from[f]];
+      if (from[f] >= old.size()) continue;
+      now[f] = old[from[f]];
+      stale[f] = moved_[f] != 0 ? std::uint8_t{1} : old_stale[from[f]];
     }
   }
 }
 
 std::size_t FaceValues::place_of(Id panel, std::int32_t number) const {
   const auto found = places_.find({panel, number});
-  return found == places_.end() ? stale_.size() : found->second;
+  return found == places_.end() ? moved_.size() : found->second;
 }
 
 std::vector<double>& FaceValues::column(const std::string& statistic) {
   std::vector<double>& values = values_[statistic];
-  values.resize(stale_.size(), kUnknown);
+  if (values.size() != moved_.size()) {
+    values.resize(moved_.size(), kUnknown);
+    stale_[statistic].resize(moved_.size(), 1);
+  }
   return values;
 }
 
 void FaceValues::set(Id panel, std::int32_t number, const survey::LatticeTriangle* corners,
                      const std::string& statistic, double value) {
   const std::size_t place = place_of(panel, number);
-  if (place == stale_.size()) return;
+  if (place == moved_.size()) return;
   column(statistic)[place] = value;
-  stale_[place] = corners != nullptr && *corners != surface_->lattice[place] ? 1 : 0;
+  stale_[statistic][place] = corners != nullptr && *corners != surface_->lattice[place] ? 1 : 0;
 }
 
 void FaceValues::set_geometry(std::size_t face, const std::string& statistic, double value) {
@@ -71,14 +76,28 @@ void FaceValues::scale(const std::string& product, const std::string& factor, co
   if (a == values_.end() || b == values_.end()) return;
   std::vector<double>& into = column(product);
   for (std::size_t f = 0; f < into.size(); ++f) into[f] = a->second[f] * b->second[f];
+  stale_[product] = stale_[is_geometry(factor) ? other : factor];
 }
 
-void FaceValues::mark_stale_since_sent() {
-  for (std::size_t f = 0; f < stale_.size(); ++f) stale_[f] |= moved_[f];
+void FaceValues::mark_stale_since_sent(const std::string& statistic) {
+  const auto found = stale_.find(statistic);
+  if (found == stale_.end()) return;
+  for (std::size_t f = 0; f < moved_.size(); ++f) found->second[f] |= moved_[f];
 }
 
-bool FaceValues::any_stale() const {
-  return std::ranges::any_of(stale_, [](std::uint8_t stale) { return stale != 0; });
+void FaceValues::mark_stale(const std::string& statistic) {
+  const auto found = stale_.find(statistic);
+  if (found != stale_.end() && !is_geometry(statistic)) found->second.assign(moved_.size(), 1);
+}
+
+void FaceValues::mark_all_stale() {
+  for (const auto& [statistic, values] : values_) mark_stale(statistic);
+}
+
+bool FaceValues::any_stale(const std::string& statistic) const {
+  const auto found = stale_.find(statistic);
+  if (found == stale_.end() || is_geometry(statistic)) return false;
+  return std::ranges::any_of(found->second, [](std::uint8_t stale) { return stale != 0; });
 }
 
 std::shared_ptr<const FaceNumbers> FaceValues::numbers(const std::string& statistic) const {
@@ -86,11 +105,11 @@ std::shared_ptr<const FaceNumbers> FaceValues::numbers(const std::string& statis
   if (found == values_.end()) return nullptr;
   auto numbers = std::make_shared<FaceNumbers>();
   numbers->values = found->second;
-  numbers->stale = stale_;
-  if (is_geometry(statistic)) numbers->stale.assign(stale_.size(), 0);
-  numbers->hatched.assign(stale_.size(), 0);
+  numbers->stale = stale_.at(statistic);
+  if (is_geometry(statistic)) numbers->stale.assign(moved_.size(), 0);
+  numbers->hatched.assign(moved_.size(), 0);
   if (const auto counts = values_.find("count"); counts != values_.end()) {
-    for (std::size_t f = 0; f < stale_.size(); ++f) {
+    for (std::size_t f = 0; f < moved_.size(); ++f) {
       numbers->hatched[f] = counts->second[f] < kFewestSamples ? 1 : 0;
     }
   }

@@ -1,5 +1,6 @@
-// Statistics of a fault's faces through changes of its surface: faces keep their names (panel, number), so what is known
-// of a face stays known until it moves, and is marked stale then until it is computed again.
+// Statistics of a fault's faces through changes of its surface: faces keep their names (panel, number), so
+// what is known of a face stays known until it moves, and is marked stale then until it is computed again.
+// Each statistic by itself: offsets come later than the others.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -26,21 +27,24 @@ class FaceValues {
   // product = factor * other, face by face.
   void scale(const std::string& product, const std::string& factor, const std::string& other);
   // Of an answer that was computed before the surface was last set: faces that moved since are stale after all.
-  void mark_stale_since_sent();
+  void mark_stale_since_sent(const std::string& statistic);
+  // What is not of the faces' places alone was computed from another volume, or along another normal.
+  void mark_stale(const std::string& statistic);
+  void mark_all_stale();
   bool is_known(const std::string& statistic) const { return values_.contains(statistic); }
-  // Of faces with any value, whether one is stale; of all faces, whether one has none.
-  bool any_stale() const;
+  // Whether a face has no value of it, or one of before it moved.
+  bool any_stale(const std::string& statistic) const;
   const std::map<std::string, std::vector<double>>& values() const { return values_; }
   std::shared_ptr<const FaceNumbers> numbers(const std::string& statistic) const;
 
  private:
-  std::size_t place_of(Id panel, std::int32_t number) const;  // size() where there is none
+  std::size_t place_of(Id panel, std::int32_t number) const;  // size of moved_ where there is none
   std::vector<double>& column(const std::string& statistic);
 
   std::shared_ptr<const FaultSurface> surface_;
   std::map<std::pair<Id, std::int32_t>, std::size_t> places_;
   std::map<std::string, std::vector<double>> values_;
-  std::vector<std::uint8_t> stale_;
+  std::map<std::string, std::vector<std::uint8_t>> stale_;  // of the same statistics
   std::vector<std::uint8_t> moved_;  // by the last set_surface()
   std::set<std::string> geometry_;
 };

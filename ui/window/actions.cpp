@@ -29,7 +29,7 @@ QList<QKeySequence> keys_of(const ActionRow& row) {
 std::vector<ActionRow> action_table() {
   std::vector<ActionRow> table;
   for (const auto& group : {file_actions(), edit_actions(), view_actions(), survey_actions(), fault_actions(),
-                            compute_actions(), window_actions(), help_actions()}) {
+                            tour_actions(), compute_actions(), window_actions(), help_actions()}) {
     table.insert(table.end(), group.begin(), group.end());
   }
   return table;
@@ -112,6 +112,8 @@ unsigned Actions::met() const {
   add(!selection.faults().empty() || !selection.pillars().empty() || !selection.nodes().empty() ||
           kind == Item::Kind::kIsosurface || kind == Item::Kind::kView,
       kAnything);
+  add(bench->picking.tool() == Tool::kSelect && (kind == Item::Kind::kFace || !selection.pillars().empty()),
+      kShiftable);
   add(bench->document.can_undo(), kUndo);
   add(bench->document.can_redo(), kRedo);
   const ViewArea* views = window_.views();

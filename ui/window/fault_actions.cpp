@@ -1,15 +1,12 @@
-#include <QApplication>
 #include <QColorDialog>
+#include <QCoreApplication>
 #include <QInputDialog>
-#include <QKeyEvent>
+#include <algorithm>
 
 #include "engine/tasks/triangulate.h"
 #include "ui/model/fault_commands.h"
-#include "ui/model/tour.h"
 #include "ui/window/action_groups.h"
 #include "ui/window/main_window.h"
-#include "ui/window/view_area.h"
-#include "ui/window/view_tile.h"
 
 namespace footwall::ui {
 namespace {
@@ -131,39 +128,6 @@ void drop_interpolated(MainWindow& window) {
   });
 }
 
-// The face of the next lowest contrast, in the middle of every view.
-void go_to_worst(MainWindow& window) {
-  Workbench& bench = *window.workbench();
-  const Item now = bench.selection.current();
-  const Id fault = now.kind == Item::Kind::kFace ? now.id : *chosen_faults(window).begin();
-  const auto surface = bench.surfaces.surface(fault);
-  const auto contrast = bench.surfaces.numbers(fault, QStringLiteral("contrast"));
-  std::vector<TourStop> stops;
-  if (surface && contrast) stops = worst_faces(*surface, *contrast);
-  const TourStop* stop = next_stop(stops, now);
-  if (stop == nullptr) {
-    return window.tell_failure(translated("the contrast of no face of this fault is known"),
-                               translated("Compute > Update all computes them"));
-  }
-  bench.selection.select(stop->face);
-  bench.display.set_cursor(stop->place);
-  const auto sections = bench.display.sections();
-  for (const Display::ShownSection& shown : sections) {
-    if (!shown.linked || shown.section.kind == Section::Kind::kLine) continue;
-    Section moved = shown.section;
-    moved.index = std::llround(moved.kind == Section::Kind::kInline      ? stop->place.i
-                               : moved.kind == Section::Kind::kCrossline ? stop->place.j
-                                                                         : stop->place.k);
-    bench.display.move_section(shown.id, stepped(moved, 0, *bench.document.survey()));
-  }
-  for (const ViewTile* tile : window.views()->tiles()) {
-    QKeyEvent frame(QEvent::KeyPress, Qt::Key_F, Qt::NoModifier);
-    QWidget* view = tile->view();
-    while (view->focusProxy() != nullptr) view = view->focusProxy();
-    QApplication::sendEvent(view, &frame);
-  }
-}
-
 }  // namespace
 
 std::vector<ActionRow> fault_actions() {
@@ -206,10 +170,6 @@ std::vector<ActionRow> fault_actions() {
        QT_TRANSLATE_NOOP("Actions", "Interpolated pillars become picked ones, as they stand"),
        kEdit | kPillars,
        [](MainWindow& window) { accept_pillars(document(window), chosen_pillars(window)); }},
-      {"fault.worst", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Worst next"), "W", "worst",
-       QT_TRANSLATE_NOOP(
-           "Actions", "Go to the face that sits worst on the fault, then to the next: lowest contrast first"),
-       kProject | kSurvey | kFault, go_to_worst, nullptr, true},
   };
 }
 
