@@ -6,6 +6,7 @@
 #include "ui/model/document.h"
 #include "ui/model/engine_link.h"
 #include "ui/model/jobs.h"
+#include "ui/model/mouse_bindings.h"
 #include "ui/model/picking.h"
 #include "ui/model/section_reader.h"
 #include "ui/model/selection.h"
@@ -27,6 +28,7 @@ struct Workbench {
   EngineLink engine;
   Surfaces surfaces;
   Jobs jobs;
+  MouseChoice mouse;
 };
 
 // A project by path. For writing; where somebody else writes it, for reading, and

@@ -2,6 +2,8 @@
 
 #include <QCoreApplication>
 #include <QMenuBar>
+#include <string>
+#include <utility>
 
 #include "ui/window/action_groups.h"
 #include "ui/window/main_window.h"
@@ -83,11 +85,18 @@ QAction* Actions::action(const QString& id) const {
 
 void Actions::fill(QMenuBar& bar) const {
   std::map<Menu, QMenu*> menus;
+  std::map<std::pair<Menu, std::string>, QMenu*> submenus;
   for (const ActionRow& row : table_) {
     QMenu*& menu = menus[row.menu];
     if (menu == nullptr) menu = bar.addMenu(title_of(row.menu));
     if (row.starts_group) menu->addSeparator();
-    menu->addAction(action(QString::fromLatin1(row.id)));
+    QMenu* into = menu;
+    if (row.submenu != nullptr) {
+      QMenu*& sub = submenus[{row.menu, row.submenu}];
+      if (sub == nullptr) sub = menu->addMenu(translated(row.submenu));
+      into = sub;
+    }
+    into->addAction(action(QString::fromLatin1(row.id)));
   }
 }
 

@@ -48,6 +48,7 @@ struct ActionRow {
   bool (*checked)(MainWindow& window) =
       nullptr;                // of a switch: whether it is on; asked only where `needs` are met
   bool starts_group = false;  // a line above it in the menu
+  const char* submenu = nullptr;  // of the menu, to be translated; rows of the same one stand together
 };
 
 // In the order of the menus.

@@ -42,7 +42,8 @@ void step(MainWindow& window, int steps) {
   const auto& survey = window.workbench()->document.survey();
   if (shown == all.end() || !survey) return;
   display(window).move_section(
-      id, stepped(shown->section, static_cast<std::int64_t>(steps) * display(window).step(), *survey));
+      id, stepped(shown->section, static_cast<std::int64_t>(steps) * window.workbench()->picking.step_lines(),
+                  *survey));
 }
 
 // What each kind of view does in its own way goes to it as the key that it knows.

@@ -38,7 +38,11 @@ void ActionsTest::every_action_has_name_icon_shortcut_tip_and_a_place_in_a_menu(
   MainWindow window({});
   std::set<QAction*> in_menus;
   for (const QAction* top : window.menuBar()->actions()) {
-    for (QAction* action : top->menu()->actions()) in_menus.insert(action);
+    for (QAction* action : top->menu()->actions()) {
+      in_menus.insert(action);
+      if (action->menu() == nullptr) continue;
+      for (QAction* below : action->menu()->actions()) in_menus.insert(below);
+    }
   }
   QVERIFY(window.actions().table().size() > 50);
   for (const ActionRow& row : window.actions().table()) {
@@ -120,7 +124,7 @@ void ActionsTest::shortcuts_do_what_the_menu_does() {
   QCOMPARE(window.views()->active_section(), display.sections().back().id);
   const std::int64_t before = display.sections().back().section.index;
   QTest::keyClick(&window, Qt::Key_X);
-  QCOMPARE(display.sections().back().section.index, before + display.step());
+  QCOMPARE(display.sections().back().section.index, before + 1);
   QTest::keyClick(&window, Qt::Key_Z);
   QCOMPARE(display.sections().back().section.index, before);
   QTest::keyClick(&window, Qt::Key_P);
