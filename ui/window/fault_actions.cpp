@@ -6,6 +6,7 @@
 #include "engine/tasks/triangulate.h"
 #include "ui/model/fault_commands.h"
 #include "ui/window/action_groups.h"
+#include "ui/window/dialogs.h"
 #include "ui/window/main_window.h"
 
 namespace footwall::ui {
@@ -97,6 +98,14 @@ void resample(MainWindow& window) {
   if (ok) resample_pillars(document(window), chosen_pillars(window), nodes);
 }
 
+void resample_to_spacing(MainWindow& window) {
+  bool ok = false;
+  const double metres = QInputDialog::getDouble(&window, translated("Resample to spacing"),
+                                                translated("Metres between nodes along each pillar:"), 100,
+                                                0.1, 100000, 1, &ok);
+  if (ok) resample_by_spacing(document(window), chosen_pillars(window), metres);
+}
+
 // A task of the engine's that edits the project itself, for each chosen fault.
 template <class Task>
 void for_faults(MainWindow& window, const Task& task) {
@@ -160,6 +169,13 @@ std::vector<ActionRow> fault_actions() {
       {"fault.resample", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Resample pillars…"), "Ctrl+Shift+R",
        "resample", QT_TRANSLATE_NOOP("Actions", "Another number of nodes, evenly spaced"), kEdit | kPillars,
        resample},
+      {"fault.resample-spacing", M::kFault, QT_TRANSLATE_NOOP("Actions", "Resample to spacing…"),
+       "Alt+Shift+R", "resample-spacing",
+       QT_TRANSLATE_NOOP("Actions", "Nodes evenly spaced, as many metres apart as you say"),
+       kEdit | kSurvey | kPillars, resample_to_spacing},
+      {"fault.transform", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Transform…"), "Ctrl+T", "transform",
+       QT_TRANSLATE_NOOP("Actions", "Move, turn and scale the selected nodes, pillars or faults by numbers"),
+       kEdit | kSurvey | kAnything, open_transform_dialog},
       {"fault.interpolate", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Interpolate pillars…"), "Ctrl+Shift+I",
        "pillars", QT_TRANSLATE_NOOP("Actions", "Pillars between picked ones, which follow them"),
        kEdit | kSurvey | kFault, interpolate, nullptr, true},
