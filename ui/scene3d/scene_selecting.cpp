@@ -56,49 +56,65 @@ double SceneView::Private::depth_at(const QPointF& pixel, const render::Camera& 
 
 // A fault whose pillars all lie in the region counts as a whole, but for the one of unassigned pillars, which
 // is none; a pillar whose nodes all do, as a pillar; else single nodes. Of what nothing is seen, because it
-// is behind something or beside the picture, nothing is selected.
+// is behind something or beside the picture, nothing is selected: one node that is seen is enough, and no
+// more are looked at.
 void SceneView::Private::select_within(const QPolygonF& region, bool extend) {
   if (!drawing.frame()) return;
   const render::Camera camera = drawing.seen();
   const QRectF box = region.boundingRect();
   const double heights = drawing.heights();
-  std::set<Id> faults, all_pillars, all_nodes;
+  struct Inside {
+    Id node = 0;
+    QPointF pixel;
+    double depth = 0;
+  };
+  const auto is_seen = [&](const Inside& one) {
+    return view.rect().contains(one.pixel.toPoint()) &&
+           one.depth <= depth_at(one.pixel, camera) * (1 + kBehind);
+  };
+  const auto inside_of = [&](const survey::Pillar& pillar) {
+    std::vector<Inside> inside;
+    for (const survey::PillarNode& node : pillar.nodes) {
+      const Vec3 flat = drawing.flat_of(node.position);
+      const Vec3 at{flat.x, flat.y, flat.z * heights};
+      QPointF pixel;
+      if (!project_to(camera, size(), at, &pixel) || !box.contains(pixel)) continue;
+      if (region.containsPoint(pixel, Qt::OddEvenFill))
+        inside.push_back({node.id, pixel, dot(at - camera.eye, camera.forward)});
+    }
+    return inside;
+  };
+  std::set<Id> faults, pillars, nodes;
   for (const Fault& fault : workbench.document.faults()) {
     if (!workbench.display.is_visible({.kind = Item::Kind::kFault, .id = fault.record.id})) continue;
-    std::set<Id> pillars, nodes;
-    std::size_t count = 0;
+    // 1 What lies inside; most faults end here.
+    std::vector<std::pair<const survey::Pillar*, std::vector<Inside>>> inside;
+    std::size_t count = 0, whole = 0;
     for (const survey::Pillar& pillar : workbench.document.shown_pillars(fault.record.id)) {
       if (pillar.nodes.empty()) continue;
       ++count;
-      std::size_t inside = 0;
-      std::set<Id> seen;
-      for (const survey::PillarNode& node : pillar.nodes) {
-        const Vec3 flat = drawing.flat_of(node.position);
-        const Vec3 at{flat.x, flat.y, flat.z * heights};
-        QPointF pixel;
-        if (!project_to(camera, size(), at, &pixel) || !box.contains(pixel) ||
-            !region.containsPoint(pixel, Qt::OddEvenFill)) {
-          continue;
-        }
-        ++inside;
-        const double depth = dot(at - camera.eye, camera.forward);
-        if (view.rect().contains(pixel.toPoint()) && depth <= depth_at(pixel, camera) * (1 + kBehind))
-          seen.insert(node.id);
-      }
-      if (inside == pillar.nodes.size() && !seen.empty()) {
-        pillars.insert(pillar.id);
-      } else {
-        nodes.merge(seen);
-      }
+      auto of = inside_of(pillar);
+      if (of.size() == pillar.nodes.size()) ++whole;
+      if (!of.empty()) inside.emplace_back(&pillar, std::move(of));
     }
-    if (count > 1 && pillars.size() == count && !is_unassigned(fault)) {
-      faults.insert(fault.record.id);
-    } else {
-      all_pillars.merge(pillars);
-      all_nodes.merge(nodes);
+    // 2 What of it is seen.
+    if (count > 1 && whole == count && !is_unassigned(fault)) {
+      const bool seen = std::ranges::any_of(
+          inside, [&](const auto& one) { return std::ranges::any_of(one.second, is_seen); });
+      if (seen) faults.insert(fault.record.id);
+      continue;
+    }
+    for (const auto& [pillar, of] : inside) {
+      if (of.size() == pillar->nodes.size()) {
+        if (std::ranges::any_of(of, is_seen)) pillars.insert(pillar->id);
+        continue;
+      }
+      for (const Inside& one : of) {
+        if (is_seen(one)) nodes.insert(one.node);
+      }
     }
   }
-  workbench.selection.select_all(std::move(faults), std::move(all_pillars), std::move(all_nodes), extend);
+  workbench.selection.select_all(std::move(faults), std::move(pillars), std::move(nodes), extend);
 }
 
 }  // namespace footwall::ui
