@@ -130,7 +130,8 @@ void StatusLine::paintEvent(QPaintEvent*) {
   painter.fillRect(rect(), palette().color(QPalette::Base));
   painter.fillRect(QRect(0, 0, width(), 1), palette().color(QPalette::Mid));
   const QFontMetrics metrics = painter.fontMetrics();
-  const int hint_width = std::min(metrics.horizontalAdvance(hint_), width() * 6 / 10);
+  // A pixel more: the text is as wide as a fraction of one, which elides it.
+  const int hint_width = std::min(metrics.horizontalAdvance(hint_) + 1, width() * 6 / 10);
   int x = kMargin;
   const int end = width() - 2 * kMargin - hint_width;
   for (const ReadOut& word : words_) {
