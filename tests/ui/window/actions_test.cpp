@@ -116,6 +116,12 @@ void ActionsTest::shortcuts_do_what_the_menu_does() {
   QVERIFY(!display.perspective());
   QTest::keyClick(&window, Qt::Key_C);
   QCOMPARE(display.faces().statistic, QStringLiteral("contrast"));
+  // A time survey: without a velocity there are no metres.
+  QTest::keyClick(&window, Qt::Key_B);
+  QCOMPARE(display.faces().statistic, QStringLiteral("offset_voxels"));
+  window.workbench()->document.store().set_setting("velocity", "2400");
+  QTest::keyClick(&window, Qt::Key_B);
+  QCOMPARE(display.faces().statistic, QStringLiteral("offset"));
   QTest::keyClick(&window, Qt::Key_E);
   QVERIFY(display.faces().edges);
   const std::size_t sections = display.sections().size();
