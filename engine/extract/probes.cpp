@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/extract/exchange/exchange.h"
+#include "engine/extract/fault_side.h"
 #include "engine/extract/statistics/profile.h"
-#include "engine/extract/statistics/wide_integer.h"
 
 namespace footwall::extract {
 namespace {
@@ -20,24 +20,6 @@ static_assert(kOffsetShifts.back() == kFarthestShift);
 
 // What is in memory at once: 200 bytes each at its responsible rank, 100 on the way.
 constexpr std::size_t kProbesAtOnce = std::size_t{1} << 17;
-
-// The cross product of two edges, exactly: below 2^66 on each axis.
-std::array<Int128, 3> normal_of(const survey::LatticeTriangle& t) {
-  const auto edge = [&](std::size_t to) {
-    return std::array<Int128, 3>{Int128{t[to].i} - t[0].i, Int128{t[to].j} - t[0].j,
-                                 Int128{t[to].k} - t[0].k};
-  };
-  const auto a = edge(1);
-  const auto b = edge(2);
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-int sign_of_first(const std::array<Int128, 3>& normal) {
-  for (const Int128 component : normal) {
-    if (component != 0) return component > 0 ? 1 : -1;
-  }
-  return 1;
-}
 
 // Probes of faces [first, last).
 struct Probes {
@@ -84,7 +66,7 @@ std::span<const int> probe_shifts(const Options& options) {
 }
 
 std::optional<survey::LatticeTriangle> shifted(const survey::LatticeTriangle& triangle, int shift) {
-  const auto exact = normal_of(triangle);
+  const auto exact = exact_normal(triangle);
   std::array<double, 3> normal{};
   for (std::size_t axis = 0; axis < 3; ++axis) normal[axis] = static_cast<double>(exact[axis]);
   const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
@@ -168,7 +150,7 @@ void orient_offsets(std::span<const Face> faces, std::span<FaceStatistics> stati
   require(faces.size() == statistics.size(), "statistics of every face");
   std::map<std::int64_t, std::array<Int128, 3>> sums;
   for (const Face& face : faces) {
-    const auto normal = normal_of(face.triangle);
+    const auto normal = exact_normal(face.triangle);
     auto& sum = sums[face.fault];
     for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += normal[axis];
   }
@@ -176,7 +158,7 @@ void orient_offsets(std::span<const Face> faces, std::span<FaceStatistics> stati
     double& offset = statistics[n].offset_voxels;
     // Not -0: a face on the spot is on no side. Nor a NaN of the other sign: the one for undefined is the
     // same everywhere, down to its bits.
-    if (offset != 0 && !std::isnan(offset) && sign_of_first(sums[faces[n].fault]) < 0) offset = -offset;
+    if (offset != 0 && !std::isnan(offset) && side_of(sums[faces[n].fault]) < 0) offset = -offset;
   }
 }
 

@@ -39,6 +39,7 @@ double number(const QJsonValue& json, double low, double high, double otherwise)
 }
 
 constexpr double kFar = 1 << 23;
+constexpr int kMostLines = 100000;
 
 QJsonArray json_of(const survey::IndexPoint& p) {
   return {p.i, p.j};
@@ -158,8 +159,23 @@ void Display::remove_section(Id id) {
   Q_EMIT changed();
 }
 
-void Display::set_step(int lines) {
-  if (std::exchange(step_, std::max(1, lines)) == step_) return;
+void Display::set_own_step(std::optional<int> lines) {
+  if (lines) lines = std::clamp(*lines, 1, kMostLines);
+  if (std::exchange(own_step_, lines) == lines) return;
+  Q_EMIT scene_changed();
+  Q_EMIT changed();
+}
+
+void Display::set_steps_after_pillar(bool on) {
+  if (std::exchange(steps_after_pillar_, on) == on) return;
+  Q_EMIT scene_changed();
+  Q_EMIT changed();
+}
+
+void Display::set_snapping(bool to_section, bool to_samples) {
+  const bool section_same = std::exchange(snaps_to_section_, to_section) == to_section;
+  const bool samples_same = std::exchange(snaps_to_samples_, to_samples) == to_samples;
+  if (section_same && samples_same) return;
   Q_EMIT scene_changed();
   Q_EMIT changed();
 }
@@ -203,16 +219,20 @@ QJsonObject Display::to_json() const {
                       {"gain", samples_.gain},
                       {"wiggle", samples_.wiggle}};
   if (samples_.interpolate) samples["interpolate"] = *samples_.interpolate;
-  return {{"volume", static_cast<double>(volume_)},
-          {"samples", samples},
-          {"faces", faces},
-          {"sections", sections},
-          {"isosurfaces", isosurfaces},
-          {"hidden", hidden},
-          {"step", step_},
-          {"fade_distance", fade_distance_},
-          {"exaggeration", exaggeration_},
-          {"perspective", perspective_}};
+  QJsonObject all{{"volume", static_cast<double>(volume_)},
+                  {"samples", samples},
+                  {"faces", faces},
+                  {"sections", sections},
+                  {"isosurfaces", isosurfaces},
+                  {"hidden", hidden},
+                  {"steps_after_pillar", steps_after_pillar_},
+                  {"snaps_to_section", snaps_to_section_},
+                  {"snaps_to_samples", snaps_to_samples_},
+                  {"fade_distance", fade_distance_},
+                  {"exaggeration", exaggeration_},
+                  {"perspective", perspective_}};
+  if (own_step_) all["own_step"] = *own_step_;
+  return all;
 }
 
 void Display::from_json(const QJsonObject& json) {
@@ -263,7 +283,11 @@ void Display::from_json(const QJsonObject& json) {
                          .in_scene = one["in_scene"].toBool(true),
                          .linked = one["linked"].toBool(true)});
   }
-  step_ = static_cast<int>(number(json["step"], 1, 100000, step_));
+  own_step_.reset();
+  if (json["own_step"].isDouble()) own_step_ = static_cast<int>(number(json["own_step"], 1, kMostLines, 1));
+  steps_after_pillar_ = json["steps_after_pillar"].toBool(steps_after_pillar_);
+  snaps_to_section_ = json["snaps_to_section"].toBool(snaps_to_section_);
+  snaps_to_samples_ = json["snaps_to_samples"].toBool(snaps_to_samples_);
   fade_distance_ = number(json["fade_distance"], 0, 1e6, fade_distance_);
   exaggeration_ = number(json["exaggeration"], 0.01, 1000, exaggeration_);
   perspective_ = json["perspective"].toBool(perspective_);

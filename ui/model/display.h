@@ -82,8 +82,18 @@ class Display final : public QObject {
   void change_section(const ShownSection& section);  // by id
   void remove_section(Id id);
 
-  int step() const { return step_; }  // lines that X and Z move by
-  void set_step(int lines);
+  // Lines that X and Z move by as the user set it; unset: by the tool (Picking::step_lines()).
+  const std::optional<int>& own_step() const { return own_step_; }
+  void set_own_step(std::optional<int> lines);
+  bool steps_after_pillar() const {
+    return steps_after_pillar_;
+  }  // a section moves on where a pillar was ended on it
+  void set_steps_after_pillar(bool on);
+  bool snaps_to_section() const {
+    return snaps_to_section_;
+  }  // a moved node lies exactly on the section's plane
+  bool snaps_to_samples() const { return snaps_to_samples_; }  // nodes lie on samples
+  void set_snapping(bool to_section, bool to_samples);
   double fade_distance() const { return fade_distance_; }  // voxels up to which pillars off the section are drawn
   void set_fade_distance(double voxels);
   double exaggeration() const { return exaggeration_; }  // of heights in the scene, > 0
@@ -106,7 +116,7 @@ class Display final : public QObject {
   void isosurfaces_changed();
   void sections_changed();
   void cursor_moved();
-  void scene_changed();  // exaggeration, perspective, fade distance, step
+  void scene_changed();  // exaggeration, perspective, fade distance, step, snapping
   void changed();        // anything that to_json() holds
 
  private:
@@ -118,7 +128,10 @@ class Display final : public QObject {
   std::vector<IsosurfaceLook> isosurfaces_;
   std::vector<ShownSection> sections_;
   Id last_id_ = 0;
-  int step_ = 1;
+  std::optional<int> own_step_;
+  bool steps_after_pillar_ = false;
+  bool snaps_to_section_ = true;
+  bool snaps_to_samples_ = false;
   double fade_distance_ = 15;
   double exaggeration_ = 1;
   bool perspective_ = true;

@@ -110,8 +110,9 @@ void EngineLink::stop() {
 }
 
 void EngineLink::set_volume(Id volume) {
-  private_->volume = volume;
+  const Id before = std::exchange(private_->volume, volume);
   private_->colours->set_volume(private_->engine_volume(volume));
+  if (before != 0 && before != volume) Q_EMIT volume_changed();
 }
 
 Id EngineLink::volume() const {

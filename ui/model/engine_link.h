@@ -94,6 +94,7 @@ class EngineLink final : public QObject {
 
  Q_SIGNALS:
   void state_changed();
+  void volume_changed();  // statistics are of another volume from now on
   void numbers(const footwall::ui::EngineNumbers& numbers);
   void picture(std::shared_ptr<const footwall::ui::Picture> picture);
   void failed(const QString& message, const QString& hint);

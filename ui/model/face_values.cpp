@@ -11,6 +11,13 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint64_t kNotTold = std::numeric_limits<std::uint64_t>::max();
 constexpr double kFewestSamples = 30;  // below, a face is left out of rankings
 
+// Offsets are computed apart from the rest, when a gesture is over.
+enum Family : std::size_t { kWithMoves, kLate };
+
+Family family_of(const std::string& statistic) {
+  return statistic.starts_with("offset") ? kLate : kWithMoves;
+}
+
 }  // namespace
 
 void FaceValues::set_surface(std::shared_ptr<const FaultSurface> surface) {
@@ -21,16 +28,17 @@ void FaceValues::set_surface(std::shared_ptr<const FaultSurface> surface) {
   const auto former_moved = std::exchange(moved_under_, {});
   if (surface_ == nullptr) return;
   const std::size_t count = surface_->faces.size();
-  computed_at_.assign(count, std::nullopt);
+  for (auto& places : computed_at_) places.assign(count, std::nullopt);
   moved_under_.assign(count, kNotTold);
-  std::vector<std::size_t> from(count, former_computed.size());
+  std::vector<std::size_t> from(count, former_moved.size());
   for (std::size_t f = 0; f < count; ++f) {
     const std::pair<Id, std::int32_t> name{surface_->faces[f].panel, surface_->faces[f].n};
     places_.emplace_hint(places_.end(), name, f);
     const auto found = former_places.find(name);
     if (found == former_places.end()) continue;
     from[f] = found->second;
-    computed_at_[f] = former_computed[found->second];
+    for (const Family family : {kWithMoves, kLate})
+      computed_at_[family][f] = former_computed[family][found->second];
     if (before->lattice[found->second] == surface_->lattice[f]) moved_under_[f] = former_moved[found->second];
   }
   for (const auto& [statistic, old] : former_values) {
@@ -44,33 +52,38 @@ void FaceValues::set_surface(std::shared_ptr<const FaultSurface> surface) {
 
 std::size_t FaceValues::place_of(Id panel, std::int32_t number) const {
   const auto found = places_.find({panel, number});
-  return found == places_.end() ? computed_at_.size() : found->second;
+  return found == places_.end() ? moved_under_.size() : found->second;
 }
 
 std::vector<double>& FaceValues::column(const std::string& statistic) {
   std::vector<double>& values = values_[statistic];
-  values.resize(computed_at_.size(), kUnknown);
+  values.resize(moved_under_.size(), kUnknown);
   return values;
 }
 
 void FaceValues::set(Id panel, std::int32_t number, const survey::LatticeTriangle& corners,
                      const std::string& statistic, double value) {
   const std::size_t place = place_of(panel, number);
-  if (place == computed_at_.size()) return;
+  if (place == moved_under_.size()) return;
   column(statistic)[place] = value;
-  computed_at_[place] = corners;
+  computed_at_[family_of(statistic)][place] = corners;
 }
 
 void FaceValues::take(const std::vector<Id>& panels, const std::vector<std::int32_t>& numbers,
                       const std::map<std::string, std::vector<double>>& statistics,
                       const std::vector<std::size_t>& rows, std::uint64_t edit) {
+  std::set<Family> families;
+  for (const auto& [statistic, values] : statistics) families.insert(family_of(statistic));
   std::vector<std::pair<std::size_t, std::size_t>> placed;  // row, place
   placed.reserve(rows.size());
   for (const std::size_t row : rows) {
     const std::size_t place = place_of(panels[row], numbers[row]);
-    if (place == computed_at_.size()) continue;
+    if (place == moved_under_.size()) continue;
     placed.emplace_back(row, place);
-    computed_at_[place] = moved_under_[place] <= edit ? std::optional(surface_->lattice[place]) : std::nullopt;
+    for (const Family family : families) {
+      computed_at_[family][place] =
+          moved_under_[place] <= edit ? std::optional(surface_->lattice[place]) : std::nullopt;
+    }
   }
   if (placed.empty()) return;
   for (const auto& [statistic, values] : statistics) {
@@ -96,13 +109,22 @@ void FaceValues::scale(const std::string& product, const std::string& factor, co
   for (std::size_t f = 0; f < into.size(); ++f) into[f] = a->second[f] * b->second[f];
 }
 
-bool FaceValues::is_stale(std::size_t face) const {
-  return computed_at_[face] != surface_->lattice[face];
+void FaceValues::mark_stale(const std::string& statistic) {
+  std::ranges::fill(computed_at_[family_of(statistic)], std::nullopt);
 }
 
-bool FaceValues::any_stale() const {
-  for (std::size_t f = 0; f < computed_at_.size(); ++f) {
-    if (is_stale(f)) return true;
+void FaceValues::mark_all_stale() {
+  for (auto& places : computed_at_) std::ranges::fill(places, std::nullopt);
+}
+
+bool FaceValues::is_stale(const std::string& statistic, std::size_t face) const {
+  return computed_at_[family_of(statistic)][face] != surface_->lattice[face];
+}
+
+bool FaceValues::any_stale(const std::string& statistic) const {
+  if (is_geometry(statistic)) return false;
+  for (std::size_t f = 0; f < moved_under_.size(); ++f) {
+    if (is_stale(statistic, f)) return true;
   }
   return false;
 }
@@ -112,10 +134,10 @@ std::shared_ptr<const FaceNumbers> FaceValues::numbers(const std::string& statis
   if (found == values_.end()) return nullptr;
   auto numbers = std::make_shared<FaceNumbers>();
   numbers->values = found->second;
-  const std::size_t count = computed_at_.size();
+  const std::size_t count = moved_under_.size();
   numbers->stale.assign(count, 0);
   if (!is_geometry(statistic)) {
-    for (std::size_t f = 0; f < count; ++f) numbers->stale[f] = is_stale(f) ? 1 : 0;
+    for (std::size_t f = 0; f < count; ++f) numbers->stale[f] = is_stale(statistic, f) ? 1 : 0;
   }
   numbers->hatched.assign(count, 0);
   if (const auto counts = values_.find("count"); counts != values_.end()) {

@@ -1,6 +1,7 @@
 // Statistics of a fault's faces through changes of its surface: faces keep their names (panel, number), so what is known
 // of a face stays known until it moves, and is marked stale then until it is computed again.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -34,21 +35,25 @@ class FaceValues {
   // product = factor * other, face by face.
   void scale(const std::string& product, const std::string& factor, const std::string& other);
   bool is_known(const std::string& statistic) const { return values_.contains(statistic); }
-  // Whether a face has no value, or that of another place than it has now.
-  bool any_stale() const;
+  // What is computed together with the statistic is of another volume, or along another normal: stale on all faces.
+  void mark_stale(const std::string& statistic);
+  void mark_all_stale();
+  // Whether a face has no value of it, or that of another place than it has now.
+  bool any_stale(const std::string& statistic) const;
   const std::map<std::string, std::vector<double>>& values() const { return values_; }
   std::shared_ptr<const FaceNumbers> numbers(const std::string& statistic) const;
 
  private:
   std::size_t place_of(Id panel, std::int32_t number) const;  // size() where there is none
-  bool is_stale(std::size_t face) const;
+  bool is_stale(const std::string& statistic, std::size_t face) const;
   std::vector<double>& column(const std::string& statistic);
 
   std::shared_ptr<const FaultSurface> surface_;
   std::map<std::pair<Id, std::int32_t>, std::size_t> places_;
   std::map<std::string, std::vector<double>> values_;
-  // Where each face stood when its values were computed; nothing where that is not known.
-  std::vector<std::optional<survey::LatticeTriangle>> computed_at_;
+  // Where each face stood when its values were computed, those that come with every move and those that come late;
+  // nothing where that is not known.
+  std::array<std::vector<std::optional<survey::LatticeTriangle>>, 2> computed_at_;
   std::vector<std::uint64_t> moved_under_;  // the edit that moved each face last
   std::set<std::string> geometry_;
 };

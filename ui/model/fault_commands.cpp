@@ -16,6 +16,9 @@ using survey::WorldPoint;
 constexpr std::array<const char*, 10> kColours{"#e06c6c", "#4aa3df", "#e0b15c", "#2e8b57", "#c9a3e8",
                                                "#8c5a2b", "#56d0c0", "#d55e00", "#b0c4de", "#cc79a7"};
 
+constexpr double kMetreAMillisecond = 2000;  // m/s
+constexpr double kMostGaps = 9999;           // of a resampled pillar
+
 QString tr(const char* text) {
   return QCoreApplication::translate("footwall::ui", text);
 }
@@ -52,9 +55,12 @@ std::vector<WorldPoint> smoothed(const std::vector<WorldPoint>& nodes) {
   return result;
 }
 
-std::vector<WorldPoint> resampled(const std::vector<WorldPoint>& nodes, int count) {
+// `count` nodes at even lengths by `metric`.
+template <class Length>
+std::vector<WorldPoint> resampled(const std::vector<WorldPoint>& nodes, int count, const Length& metric) {
   std::vector<double> along{0};
-  for (std::size_t n = 1; n < nodes.size(); ++n) along.push_back(along.back() + distance(nodes[n - 1], nodes[n]));
+  for (std::size_t n = 1; n < nodes.size(); ++n)
+    along.push_back(along.back() + metric(nodes[n - 1], nodes[n]));
   std::vector<WorldPoint> result;
   std::size_t segment = 0;
   for (int n = 0; n < count; ++n) {
@@ -239,7 +245,33 @@ bool resample_pillars(Document& document, const std::set<Id>& pillars, int nodes
   if (nodes < 2) return false;
   return reshape(document, counted("Resample pillar", "Resample %1 pillars", pillars.size()), pillars,
                  [nodes](const std::vector<WorldPoint>& before) {
-                   return before.size() < 2 ? before : resampled(before, nodes);
+                   return before.size() < 2 ? before : resampled(before, nodes, distance);
+                 });
+}
+
+bool resample_by_spacing(Document& document, const std::set<Id>& pillars, double metres) {
+  if (!(metres > 0) || !document.survey()) return false;
+  const survey::Geometry& survey = *document.survey();
+  double velocity = kMetreAMillisecond;
+  try {
+    const auto stored = document.project().setting("velocity");
+    const double known = stored ? QString::fromStdString(*stored).toDouble() : 0;
+    if (known > 0 && std::isfinite(known)) velocity = known;
+  } catch (const Error& error) {
+    Q_EMIT document.failed(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
+    return false;
+  }
+  const auto metric = [&](const WorldPoint& a, const WorldPoint& b) {
+    return std::hypot(survey.horizontal_metres(std::hypot(a.x - b.x, a.y - b.y)),
+                      survey.vertical_metres(a.z - b.z, velocity));
+  };
+  return reshape(document, counted("Resample pillar", "Resample %1 pillars", pillars.size()), pillars,
+                 [&](const std::vector<WorldPoint>& before) {
+                   if (before.size() < 2) return before;
+                   double length = 0;
+                   for (std::size_t n = 1; n < before.size(); ++n) length += metric(before[n - 1], before[n]);
+                   const double gaps = std::clamp(std::round(length / metres), 1.0, kMostGaps);
+                   return resampled(before, static_cast<int>(gaps) + 1, metric);
                  });
 }
 
@@ -252,48 +284,50 @@ bool accept_pillars(Document& document, const std::set<Id>& pillars) {
                        });
 }
 
-bool transform_items(Document& document, const std::set<Id>& faults, const std::set<Id>& pillars,
-                     const std::set<Id>& nodes, const Transform& transform) {
-  const std::map<Id, std::set<Id>> chosen = nodes_of(document, faults, pillars, nodes);
-  if (chosen.empty()) return false;
+std::map<Id, WorldPoint> transformed(const Document& document, const std::set<Id>& faults,
+                                     const std::set<Id>& pillars, const std::set<Id>& nodes,
+                                     const Transform& transform) {
+  std::map<Id, WorldPoint> before;
+  for (const auto& [pillar, chosen] : nodes_of(document, faults, pillars, nodes)) {
+    for (const survey::PillarNode& node : document.pillar(pillar)->nodes) {
+      if (chosen.contains(node.id)) before[node.id] = node.position;
+    }
+  }
   WorldPoint centre;
   if (transform.centre) {
     centre = *transform.centre;
   } else {
     double count = 0;
-    for (const auto& [pillar, moved] : chosen) {
-      for (const survey::PillarNode& node : document.pillar(pillar)->nodes) {
-        if (!moved.contains(node.id)) continue;
-        ++count;
-        centre = between(centre, node.position, 1 / count);
-      }
-    }
+    for (const auto& [node, position] : before) centre = between(centre, position, 1 / ++count);
   }
   // Clockwise seen from above: from north (y) towards east (x).
   const double angle = transform.rotate_degrees * std::numbers::pi / 180;
   const double cosine = std::cos(angle);
   const double sine = std::sin(angle);
-  const auto moved_point = [&](const WorldPoint& p) {
+  const bool only_moves = transform.rotate_degrees == 0 && transform.scale == std::array<double, 3>{1, 1, 1};
+  std::map<Id, WorldPoint> after;
+  for (const auto& [node, p] : before) {
     const double x = p.x - centre.x;
     const double y = p.y - centre.y;
     const double z = p.z - centre.z;
-    return WorldPoint{centre.x + transform.scale[0] * (cosine * x + sine * y) + transform.move.x,
-                      centre.y + transform.scale[1] * (cosine * y - sine * x) + transform.move.y,
-                      centre.z + transform.scale[2] * z + transform.move.z};
-  };
+    // A mere move is exact.
+    after[node] = only_moves
+                      ? WorldPoint{p.x + transform.move.x, p.y + transform.move.y, p.z + transform.move.z}
+                      : WorldPoint{centre.x + transform.scale[0] * (cosine * x + sine * y) + transform.move.x,
+                                   centre.y + transform.scale[1] * (cosine * y - sine * x) + transform.move.y,
+                                   centre.z + transform.scale[2] * z + transform.move.z};
+  }
+  return after;
+}
+
+bool transform_items(Document& document, const std::set<Id>& faults, const std::set<Id>& pillars,
+                     const std::set<Id>& nodes, const Transform& transform) {
+  const std::map<Id, WorldPoint> moved = transformed(document, faults, pillars, nodes, transform);
+  if (moved.empty()) return false;
   const bool only_moves = transform.rotate_degrees == 0 && transform.scale == std::array<double, 3>{1, 1, 1};
   return document.edit(only_moves ? tr("Move selection") : tr("Transform selection"),
                        [&](project::Interpretation& now) {
-                         for (const auto& [pillar, ids] : chosen) {
-                           for (const survey::PillarNode& node : now.pillar(pillar).nodes) {
-                             if (!ids.contains(node.id)) continue;
-                             const WorldPoint& p = node.position;
-                             now.move_node(node.id, only_moves ? WorldPoint{p.x + transform.move.x,
-                                                                            p.y + transform.move.y,
-                                                                            p.z + transform.move.z}
-                                                               : moved_point(p));
-                           }
-                         }
+                         for (const auto& [node, to] : moved) now.move_node(node, to);
                        });
 }
 

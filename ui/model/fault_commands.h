@@ -3,6 +3,7 @@
 #pragma once
 #include <QString>
 #include <array>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -32,6 +33,9 @@ bool reverse_pillars(Document& document, const std::set<Id>& pillars);
 bool smooth_pillars(Document& document, const std::set<Id>& pillars);
 // As many nodes, evenly spaced along each pillar.
 bool resample_pillars(Document& document, const std::set<Id>& pillars, int nodes);
+// Nodes evenly spaced along each pillar, as near to `metres` apart as whole gaps allow; its ends stay.
+// Heights of a time survey by half the project's velocity; without one, 1 ms counts as 1 m, as it is drawn.
+bool resample_by_spacing(Document& document, const std::set<Id>& pillars, double metres);
 bool accept_pillars(Document& document, const std::set<Id>& pillars);
 
 // Turned about the vertical through `centre` by degrees clockwise seen from above, scaled about it, then moved; world
@@ -42,6 +46,10 @@ struct Transform {
   std::array<double, 3> scale{1, 1, 1};
   std::optional<survey::WorldPoint> centre{};  // unset: the middle of what is moved
 };
+// Node -> where it would stand: for showing it before it is done.
+std::map<Id, survey::WorldPoint> transformed(const Document& document, const std::set<Id>& faults,
+                                             const std::set<Id>& pillars, const std::set<Id>& nodes,
+                                             const Transform& transform);
 bool transform_items(Document& document, const std::set<Id>& faults, const std::set<Id>& pillars,
                      const std::set<Id>& nodes, const Transform& transform);
 

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <string_view>
 #include <utility>
 
 #include "engine/service/client/engine_client.h"
@@ -20,30 +23,59 @@ constexpr std::size_t kFacesInBatch = 50000;
 // How often an idle engine is asked whether it is still there.
 constexpr auto kLook = 1s;
 
+// A wait after the last change, so that offsets are not begun between two gestures.
+constexpr auto kRest = 200ms;
+
+// What faces are asked for while they move; offsets come by themselves.
+constexpr std::array kLive{"count", "mean", "variance", "min", "max", "discontinuity", "contrast"};
+constexpr std::array kWithOffset{"offset_voxels", "offset_score"};
+
+template <class Names>
+bool holds(const Names& names, std::string_view name) {
+  return std::ranges::any_of(names, [&](const char* one) { return name == one; });
+}
+
+// Adds the numbers to those that are there already. The engine fills all columns, those that were not asked
+// for with NaN: these are left out.
+template <class Names>
+void append(const v1::FaceNumbers& of, const Names& asked, EngineNumbers& to) {
+  to.faults.insert(to.faults.end(), of.faces().faults().begin(), of.faces().faults().end());
+  to.panels.insert(to.panels.end(), of.faces().owners().begin(), of.faces().owners().end());
+  to.face_numbers.insert(to.face_numbers.end(), of.faces().numbers().begin(), of.faces().numbers().end());
+  const auto take = [&](const char* name, const auto& column) {
+    if (column.size() != of.faces().faults_size()) return;
+    std::vector<double>& values = to.statistics[name];
+    values.insert(values.end(), column.begin(), column.end());
+  };
+  const auto take_asked = [&](const char* name, const auto& column) {
+    if (holds(asked, name)) take(name, column);
+  };
+  if (holds(asked, "count")) {
+    take("nulls", of.nulls());
+    take("outside", of.outside());
+  }
+  take_asked("count", of.count());
+  take_asked("mean", of.mean());
+  take_asked("variance", of.variance());
+  take_asked("min", of.min());
+  take_asked("max", of.max());
+  take_asked("discontinuity", of.discontinuity());
+  take_asked("contrast", of.contrast());
+  take_asked("offset_voxels", of.offset_voxels());
+  take_asked("offset_score", of.offset_score());
+}
+
 EngineNumbers plain(const v1::LiveReply& reply) {
   EngineNumbers numbers;
   numbers.edit = reply.edit();
-  const v1::FaceNumbers& of = reply.numbers();
-  numbers.faults.assign(of.faces().faults().begin(), of.faces().faults().end());
-  numbers.panels.assign(of.faces().owners().begin(), of.faces().owners().end());
-  numbers.face_numbers.assign(of.faces().numbers().begin(), of.faces().numbers().end());
-  const auto take = [&](const char* name, const auto& column) {
-    // A column that was not asked for is empty.
-    if (static_cast<std::size_t>(column.size()) != numbers.faults.size()) return;
-    numbers.statistics[name].assign(column.begin(), column.end());
-  };
-  take("count", of.count());
-  take("nulls", of.nulls());
-  take("outside", of.outside());
-  take("mean", of.mean());
-  take("variance", of.variance());
-  take("min", of.min());
-  take("max", of.max());
-  take("discontinuity", of.discontinuity());
-  take("contrast", of.contrast());
-  take("offset_voxels", of.offset_voxels());
-  take("offset_score", of.offset_score());
+  append(reply.numbers(), kLive, numbers);
   return numbers;
+}
+
+// Found from the back: the newest is asked for first.
+void put_last(std::vector<Id>& faults, Id fault) {
+  std::erase(faults, fault);
+  faults.push_back(fault);
 }
 
 }  // namespace
@@ -69,6 +101,7 @@ LiveColours::~LiveColours() {
     const std::scoped_lock lock(mutex_);
     ends_ = true;
     job_.cancel();
+    offsets_job_.cancel();
   }
   wake_.notify_all();
   thread_.join();
@@ -87,6 +120,7 @@ void LiveColours::stop() {
     const std::scoped_lock lock(mutex_);
     wanted_ = false;
     job_.cancel();
+    offsets_job_.cancel();
   }
   wake_.notify_all();
 }
@@ -95,6 +129,7 @@ void LiveColours::set_volume(const std::optional<EngineVolume>& volume) {
   {
     const std::scoped_lock lock(mutex_);
     volume_ = volume;
+    offsets_job_.cancel();
   }
   wake_.notify_all();
 }
@@ -106,6 +141,8 @@ std::uint64_t LiveColours::put(const std::shared_ptr<const FaultSurface>& surfac
     edit = ++edit_;
     surfaces_[surface->fault] = {surface, edit};
     dirty_.insert(surface->fault);
+    put_last(offsets_due_, surface->fault);
+    offsets_job_.cancel();
   }
   wake_.notify_all();
   return edit;
@@ -117,6 +154,8 @@ std::uint64_t LiveColours::remove(Id fault) {
     const std::scoped_lock lock(mutex_);
     surfaces_.erase(fault);
     dirty_.insert(fault);
+    std::erase(offsets_due_, fault);
+    offsets_job_.cancel();
     edit = ++edit_;
   }
   wake_.notify_all();
@@ -199,6 +238,55 @@ bool LiveColours::has_work() const {
   return !dirty_.empty();
 }
 
+bool LiveColours::may_ask_offsets(const Session& session) const {
+  return !offsets_due_.empty() && !has_work() && session.answered >= session.sent &&
+         std::ranges::none_of(surfaces_, [](const auto& entry) { return entry.second.surface->provisional; });
+}
+
+void LiveColours::ask_offsets(service::EngineClient& client, const std::string& volume, Session& session,
+                              std::unique_lock<std::mutex>& lock) {
+  const Id fault = offsets_due_.back();
+  const std::shared_ptr<const FaultSurface> surface = session.told[fault];
+  if (surface == nullptr || surface->faces.empty()) {
+    offsets_due_.pop_back();
+    return;
+  }
+  offsets_job_ = JobContext();
+  const JobContext job = offsets_job_;
+  EngineNumbers numbers;
+  numbers.edit = edit_;  // all of it has been told and answered
+  numbers.known[fault] = session.known[fault];
+  lock.unlock();
+  v1::ExtractRequest request;
+  request.set_volume(volume);
+  request.mutable_options()->add_compute("offset");
+  for (const project::MeshFace& face : surface->faces) {
+    request.mutable_only()->add_faults(fault);
+    request.mutable_only()->add_owners(face.panel);
+    request.mutable_only()->add_numbers(face.n);
+  }
+  bool done = false;
+  try {
+    client.extract(
+        request, [&](const v1::FaceNumbers& piece) { append(piece, kWithOffset, numbers); }, job);
+    done = true;
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::kEngine) throw;  // it is gone
+    if (error.code() != ErrorCode::kCancelled) {
+      events_.failed(error.message(), error.hint());
+      done = true;  // not again before it changes
+    }
+  }
+  lock.lock();
+  // Where it changed meanwhile it waits again, and this is of faces that are gone.
+  if (!done || session.told[fault] != surface || dirty_.contains(fault)) return;
+  std::erase(offsets_due_, fault);
+  if (numbers.faults.empty()) return;
+  lock.unlock();
+  events_.numbers(std::move(numbers));
+  lock.lock();
+}
+
 void LiveColours::serve(service::EngineClient& client) {
   for (;;) {  // one round for each volume
     std::unique_lock lock(mutex_);
@@ -206,7 +294,12 @@ void LiveColours::serve(service::EngineClient& client) {
     if (ends_ || !wanted_) return;
     const EngineVolume volume = *volume_;
     const JobContext job = job_;
-    for (const auto& [fault, surface] : surfaces_) dirty_.insert(fault);
+    for (const auto& [fault, surface] : surfaces_) {
+      dirty_.insert(fault);
+      // Those that wait already keep their place.
+      if (std::ranges::find(offsets_due_, fault) == offsets_due_.end())
+        offsets_due_.insert(offsets_due_.begin(), fault);
+    }
     lock.unlock();
 
     v1::VolumeName name;
@@ -221,9 +314,7 @@ void LiveColours::serve(service::EngineClient& client) {
     client.edit(clear);
 
     v1::ExtractOptions options;
-    for (const char* one : {"count", "mean", "variance", "min", "max", "discontinuity", "contrast"}) {
-      options.add_compute(one);
-    }
+    for (const char* one : kLive) options.add_compute(one);
     auto live = client.live(opened, options, [this, session](const v1::LiveReply& reply) {
       EngineNumbers numbers = plain(reply);
       {
@@ -244,11 +335,20 @@ void LiveColours::serve(service::EngineClient& client) {
     });
 
     lock.lock();
+    bool rested = false;  // offsets of one fault follow on those of another at once
     for (;;) {
+      const bool offsets = may_ask_offsets(*session);
       const auto ready = [&] {
-        return ends_ || !wanted_ || volume_ != volume || (has_work() && session->answered >= session->sent);
+        return ends_ || !wanted_ || volume_ != volume || (has_work() && session->answered >= session->sent) ||
+               may_ask_offsets(*session) != offsets;
       };
-      if (!wake_.wait_for(lock, kLook, ready)) {
+      const auto patience = !offsets ? std::chrono::milliseconds(kLook) : rested ? 0ms : kRest;
+      if (!wake_.wait_for(lock, patience, ready)) {
+        rested = offsets;
+        if (offsets) {
+          ask_offsets(client, opened, *session, lock);
+          continue;
+        }
         lock.unlock();
         if (live->has_ended()) live->finish();  // throws why
         client.status();                        // throws when the engine is gone
@@ -256,6 +356,8 @@ void LiveColours::serve(service::EngineClient& client) {
         continue;
       }
       if (ends_ || !wanted_ || volume_ != volume) break;
+      rested = false;
+      if (!has_work() || session->answered < session->sent) continue;
       v1::EditBatch batch;
       std::size_t faces = 0;
       std::map<Id, std::uint64_t> told_now;

@@ -1,5 +1,7 @@
-// The engine's side of colours that follow the hand: a thread that holds the engine, tells it the faces that changed
-// (newest wins, one batch under way at a time) and hands its numbers on. No Qt in here.
+// The engine's side of colours that follow the hand: a thread that holds the engine, tells it the faces that
+// changed (newest wins, one batch under way at a time) and hands its numbers on. Offsets cost 17 times what a
+// discontinuity does: they are asked for by themselves, fault by fault, while all else is answered and no
+// hand is on a fault, and given up for anything that is to be told. No Qt in here.
 #pragma once
 #include <condition_variable>
 #include <cstdint>
@@ -63,6 +65,10 @@ class LiveColours {
   void serve(service::EngineClient& client);
   void forget_connection();
   bool has_work() const;  // mutex_ is held
+  bool may_ask_offsets(const Session& session) const;  // mutex_ is held
+  // Of the fault that changed last of those that wait. lock: of mutex_, held before and after.
+  void ask_offsets(service::EngineClient& client, const std::string& volume, Session& session,
+                   std::unique_lock<std::mutex>& lock);
   void say(EngineLink::State state, const std::string& text = {});
 
   const std::optional<service::Connection> given_;
@@ -81,6 +87,8 @@ class LiveColours {
   };
   std::map<Id, Put> surfaces_;
   std::set<Id> dirty_;  // to be told; those not among surfaces_ are to go
+  std::vector<Id> offsets_due_;  // faults whose offsets are not known; the one that changed last at the end
+  JobContext offsets_job_;       // of those under way
   std::uint64_t edit_ = 0;
   std::optional<service::Connection> reached_;
 

@@ -20,6 +20,7 @@ constexpr double kStill = 4;          // pixels: less is a click
 constexpr double kStrokeTravel = 5;   // pixels
 constexpr auto kStrokeTime = 200ms;   // longer than a click that slipped
 constexpr double kStrokeTolerance = 0.75;  // voxels
+constexpr int kStepWhilePicking = 10;      // lines
 
 double travel(const Pointer& from, const Pointer& to) {
   return std::hypot(to.x - from.x, to.y - from.y);
@@ -45,8 +46,6 @@ struct Picking::State {
   Tool tool = Tool::kSelect;
   Id active = 0;           // the pillar that clicks add to
   Section active_section;  // on which they do
-  bool to_section = true;
-  bool to_lattice = false;
   bool navigates = false;  // Space is held
   bool copies = false;     // ` is held
 
@@ -63,7 +62,7 @@ struct Picking::State {
     return p.on_section && document.survey() && !document.read_only() && !navigates;
   }
   IndexPoint snapped(IndexPoint p, const Section& section) const {
-    if (!to_lattice) return p;
+    if (!display.snaps_to_samples()) return p;
     IndexPoint sample{std::round(p.i), std::round(p.j), std::round(p.k)};
     if (section.kind == Section::Kind::kLine) sample = {p.i, p.j, std::round(p.k)};
     return sample;
@@ -199,7 +198,17 @@ struct Picking::State {
   void end_pillar() {
     const Id ended = active;
     activate(0, active_section);
-    if (ended != 0) Q_EMIT self.pillar_ended(ended);
+    if (ended == 0) return;
+    if (display.steps_after_pillar()) step_on();
+    Q_EMIT self.pillar_ended(ended);
+  }
+
+  // The section that the pillar was picked on, also where that was in the scene.
+  void step_on() {
+    const auto& all = display.sections();
+    const auto shown = std::ranges::find(all, active_section, &Display::ShownSection::section);
+    if (shown == all.end() || !document.survey()) return;
+    display.move_section(shown->id, stepped(shown->section, self.step_lines(), *document.survey()));
   }
 
   // ---- dragging ----
@@ -252,7 +261,7 @@ struct Picking::State {
         const PlanePoint shifted{plane.u + to.u - from.u, plane.v + to.v - from.v};
         IndexPoint after = index_of(section, shifted);
         // Only a single node is drawn onto the plane: a group keeps its shape.
-        if (count > 1 || !to_section || gesture == Gesture::kCopy) {
+        if (count > 1 || !display.snaps_to_section() || gesture == Gesture::kCopy) {
           after = {after.i + before.i - on_plane.i, after.j + before.j - on_plane.j, after.k + before.k - on_plane.k};
         }
         moved[node.id] = world(count == 1 ? snapped(after, section) : after);
@@ -358,7 +367,7 @@ struct Picking::State {
   std::pair<QString, PointerShape> select_hint() const {
     const Fault* under = fault_at(at.under);
     if (under != nullptr) return {tr("click selects %1; Ctrl+click adds to the selection").arg(words_for(at.under)), PointerShape::kArrow};
-    return {tr("drag a box to select; P picks, M moves"), PointerShape::kArrow};
+    return {tr("drag a box to select, Shift+drag a lasso; P picks, M moves"), PointerShape::kArrow};
   }
   std::pair<QString, PointerShape> move_hint() const {
     if (fault_at(at.under) == nullptr) return {tr("drag a node, a pillar or the selection to move it"), PointerShape::kArrow};
@@ -439,15 +448,8 @@ void Picking::set_tool(Tool tool) {
 Id Picking::active_pillar() const {
   return state_->active;
 }
-bool Picking::snaps_to_section() const {
-  return state_->to_section;
-}
-bool Picking::snaps_to_lattice() const {
-  return state_->to_lattice;
-}
-void Picking::set_snapping(bool to_section, bool to_lattice) {
-  state_->to_section = to_section;
-  state_->to_lattice = to_lattice;
+int Picking::step_lines() const {
+  return state_->display.own_step().value_or(state_->tool == Tool::kPick ? kStepWhilePicking : 1);
 }
 
 bool Picking::press(const Pointer& pointer) {

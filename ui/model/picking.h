@@ -46,9 +46,8 @@ class Picking final : public QObject {
   void set_tool(Tool tool);
   // The pillar that clicks add to; 0: the next click starts one.
   Id active_pillar() const;
-  bool snaps_to_section() const;  // nodes lie exactly on the section's plane (default)
-  bool snaps_to_lattice() const;  // nodes lie on samples
-  void set_snapping(bool to_section, bool to_lattice);
+  // Lines that X and Z move by: as the user set it, else 10 while picking and 1 otherwise.
+  int step_lines() const;
 
   // Each returns whether it took the event; a view pans, orbits or selects with those it did not take.
   bool move(const Pointer& pointer);
@@ -71,7 +70,8 @@ class Picking final : public QObject {
   void tool_changed();
   void active_pillar_changed();
   void stroke_changed();
-  // A pillar was ended: a view may step to the next section.
+  // A pillar was ended; where the display says so, the section that it was picked on has moved on by
+  // step_lines().
   void pillar_ended(footwall::ui::Id pillar);
 
  private:

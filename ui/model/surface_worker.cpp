@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/extract/fault_side.h"
 #include "engine/tasks/fault_faces.h"
 #include "storage/base/error.h"
 
@@ -19,12 +20,14 @@ std::shared_ptr<const FaultSurface> surface_of(const survey::Geometry& survey, c
   for (const project::MeshVertex& vertex : mesh.vertices) {
     surface->vertices.push_back(vertex.position);
     surface->places.push_back(survey.index_of(vertex.position));
+    surface->pillars.push_back(vertex.kind == project::MeshVertex::Owner::kPillar ? vertex.owner : 0);
   }
   surface->faces = mesh.faces;
   surface->lattice.reserve(mesh.faces.size());
   for (const extract::Face& face : tasks::fault_faces(fault, mesh, survey::Lattice(survey), {0, 0, 0})) {
     surface->lattice.push_back(face.triangle);
   }
+  surface->side = extract::fault_side(surface->lattice);
   return surface;
 }
 

@@ -27,6 +27,8 @@ std::optional<double> velocity_of(const project::Project& project) {
   return velocity > 0 && std::isfinite(velocity) ? std::optional(velocity) : std::nullopt;
 }
 
+constexpr std::array kOffsets{"offset", "offset_voxels", "offset_score"};
+
 pillars::Options options_of(const project::MeshRecord& mesh) {
   pillars::Options options;
   const auto json = nlohmann::json::parse(mesh.parameters, nullptr, false);
@@ -42,6 +44,10 @@ pillars::Options options_of(const project::MeshRecord& mesh) {
 }
 
 }  // namespace
+
+bool comes_late(const QString& statistic) {
+  return std::ranges::any_of(kOffsets, [&](const char* one) { return statistic == QLatin1String(one); });
+}
 
 struct Surfaces::State {
   // What is known of one fault.
@@ -195,8 +201,13 @@ struct Surfaces::State {
 
   void set_surface(Entry& entry, std::shared_ptr<const FaultSurface> surface) {
     const Id fault = surface != nullptr ? surface->fault : entry.surface != nullptr ? entry.surface->fault : 0;
+    const bool turned =
+        surface != nullptr && entry.surface != nullptr && surface->side != entry.surface->side;
     entry.surface = std::move(surface);
     entry.values.set_surface(entry.surface);
+    if (turned) {
+      for (const char* offset : kOffsets) entry.values.mark_stale(offset);
+    }
     entry.numbers.clear();
     if (entry.surface != nullptr) set_geometry(entry);
     if (engine == nullptr || fault == 0) return;
@@ -269,7 +280,25 @@ struct Surfaces::State {
       found->second.numbers.clear();
     }
     if (!document_is_provisional()) kept_range.reset();
-    Q_EMIT self.numbers_changed(changed);
+    const bool is_late = std::ranges::all_of(
+        answer.statistics, [](const auto& entry) { return comes_late(QString::fromStdString(entry.first)); });
+    if (is_late && !answer.statistics.empty()) {
+      Q_EMIT self.offsets_changed(changed);
+    } else {
+      Q_EMIT self.numbers_changed(changed);
+    }
+  }
+
+  // What is known is of the volume before.
+  void volume_changed() {
+    std::set<Id> faults;
+    for (auto& [fault, entry] : entries) {
+      entry.values.mark_all_stale();
+      entry.numbers.clear();
+      faults.insert(fault);
+    }
+    kept_range.reset();
+    Q_EMIT self.numbers_changed(faults);
   }
 
   bool document_is_provisional() const {
@@ -316,6 +345,7 @@ Surfaces::Surfaces(Document& document, EngineLink* engine, QObject* parent)
   if (engine != nullptr) {
     connect(engine, &EngineLink::numbers, this, [this](const EngineNumbers& answer) { state_->take_answer(answer); });
     connect(engine, &EngineLink::state_changed, this, [this] { Q_EMIT numbers_changed({}); });
+    connect(engine, &EngineLink::volume_changed, this, [this] { state_->volume_changed(); });
   }
   state_->start_over();
 }
@@ -352,10 +382,11 @@ Freshness Surfaces::freshness(Id fault, const QString& statistic) const {
   }
   const bool follows = state_->document.is_provisional(fault) || entry.asked != entry.made ||
                        (state_->engine != nullptr && entry.edit > state_->engine->answered());
-  if (!entry.values.any_stale() && !state_->document.is_provisional(fault)) return Freshness::kFresh;
+  const bool any_stale = entry.values.any_stale(statistic.toStdString());
+  if (!any_stale && !state_->document.is_provisional(fault)) return Freshness::kFresh;
   const bool engine_runs = state_->engine != nullptr && (state_->engine->state() == EngineLink::State::kReady ||
                                                          state_->engine->state() == EngineLink::State::kBusy);
-  return follows && engine_runs ? Freshness::kFollowing : Freshness::kStale;
+  return (follows || comes_late(statistic)) && engine_runs ? Freshness::kFollowing : Freshness::kStale;
 }
 
 const std::vector<project::StatisticRecord>& Surfaces::statistics() const {
@@ -416,8 +447,8 @@ void Surfaces::store_live_run() {
   std::vector<project::FaultRun> faults;
   for (const auto& [id, entry] : state_->entries) {
     const Fault* fault = document.fault(id);
-    if (fault == nullptr || entry.surface == nullptr || entry.surface->provisional || entry.values.any_stale()) continue;
-    if (!entry.values.is_known("count")) continue;
+    if (fault == nullptr || entry.surface == nullptr || entry.surface->provisional) continue;
+    if (!entry.values.is_known("count") || entry.values.any_stale("count")) continue;
     project::FaultRun& one = faults.emplace_back();
     one.fault = id;
     one.fault_name = fault->record.name;
@@ -429,7 +460,8 @@ void Surfaces::store_live_run() {
     }
     for (const project::StatisticRecord& statistic : state_->statistics) {
       const auto values = entry.values.values().find(statistic.name);
-      if (values != entry.values.values().end()) one.statistics[statistic.name] = values->second;
+      if (values == entry.values.values().end() || entry.values.any_stale(statistic.name)) continue;
+      one.statistics[statistic.name] = values->second;
     }
   }
   if (faults.empty()) return;

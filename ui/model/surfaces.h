@@ -25,8 +25,10 @@ struct FaultSurface {
   bool provisional = false;   // of pillars that are shown, not stored
   std::vector<survey::WorldPoint> vertices;
   std::vector<survey::IndexPoint> places;  // of the same vertices, in voxels, as they are (not rounded)
+  std::vector<Id> pillars;  // of the same vertices: the pillar on whose line each stands; 0: between pillars
   std::vector<project::MeshFace> faces;
   std::vector<survey::LatticeTriangle> lattice;
+  int side = 1;  // 1 or -1: windings' normals times this point to the fault's side, as offsets count
 };
 
 // How much its colours are worth, as ui.md's four states.
@@ -38,6 +40,9 @@ struct FaceNumbers {
   std::vector<std::uint8_t> stale;   // 1: the value is that of the face before it moved
   std::vector<std::uint8_t> hatched; // 1: under 30 samples, left out of rankings
 };
+
+// Whether the engine tells this statistic (an offset) only when nothing else is to be done.
+bool comes_late(const QString& statistic);
 
 class EngineLink;
 
@@ -64,7 +69,8 @@ class Surfaces final : public QObject {
   // Detail of a fault's triangulation, kept with its mesh. The surface is made anew.
   pillars::Options options(Id fault) const;
   void set_options(Id fault, const pillars::Options& options);
-  // Nothing is being triangulated, and no answer of the engine is awaited.
+  // Nothing is being triangulated, and no answer of the engine is awaited. Offsets are not waited for: they
+  // take long, and come fault by fault while nothing else is to be done.
   bool is_settled() const;
   // Keeps what is known now as the live run of the engine's volume, in the project. Nothing where nothing is known.
   void store_live_run();
@@ -72,6 +78,9 @@ class Surfaces final : public QObject {
  Q_SIGNALS:
   void surfaces_changed(const std::set<footwall::ui::Id>& faults);
   void numbers_changed(const std::set<footwall::ui::Id>& faults);
+  // Of the statistics alone that comes_late() names: they come one fault after the other, and mostly nobody
+  // looks.
+  void offsets_changed(const std::set<footwall::ui::Id>& faults);
 
  private:
   struct State;

@@ -4,16 +4,17 @@
 #include <cmath>
 
 namespace footwall::ui {
+namespace {
 
-std::vector<TourStop> worst_faces(const FaultSurface& surface, const FaceNumbers& contrast) {
+// Faces that a ranking may hold, in their order.
+std::vector<TourStop> rankable(const FaultSurface& surface, const FaceNumbers& numbers) {
   std::vector<TourStop> stops;
-  const std::size_t count = std::min(surface.faces.size(), contrast.values.size());
+  const std::size_t count = std::min(surface.faces.size(), numbers.values.size());
   const auto is_set = [](const std::vector<std::uint8_t>& flags, std::size_t n) {
     return n < flags.size() && flags[n] != 0;
   };
   for (std::size_t n = 0; n < count; ++n) {
-    if (!std::isfinite(contrast.values[n]) || is_set(contrast.stale, n) || is_set(contrast.hatched, n))
-      continue;
+    if (!std::isfinite(numbers.values[n]) || is_set(numbers.stale, n) || is_set(numbers.hatched, n)) continue;
     const project::MeshFace& face = surface.faces[n];
     survey::IndexPoint middle;
     for (const std::int32_t vertex : face.vertices) {
@@ -24,16 +25,33 @@ std::vector<TourStop> worst_faces(const FaultSurface& surface, const FaceNumbers
     }
     stops.push_back({{.kind = Item::Kind::kFace, .id = surface.fault, .panel = face.panel, .number = face.n},
                      middle,
-                     contrast.values[n]});
+                     numbers.values[n]});
   }
-  std::ranges::stable_sort(stops, {}, &TourStop::contrast);
   return stops;
 }
 
-const TourStop* next_stop(const std::vector<TourStop>& stops, const Item& now) {
+}  // namespace
+
+std::vector<TourStop> worst_faces(const FaultSurface& surface, const FaceNumbers& contrast) {
+  std::vector<TourStop> stops = rankable(surface, contrast);
+  std::ranges::stable_sort(stops, {}, &TourStop::value);
+  return stops;
+}
+
+std::vector<TourStop> farthest_faces(const FaultSurface& surface, const FaceNumbers& offset) {
+  std::vector<TourStop> stops = rankable(surface, offset);
+  std::erase_if(stops, [](const TourStop& stop) { return stop.value == 0; });
+  std::ranges::stable_sort(stops, std::ranges::greater(),
+                           [](const TourStop& stop) { return std::abs(stop.value); });
+  return stops;
+}
+
+const TourStop* next_stop(const std::vector<TourStop>& stops, const Item& now, int by) {
   if (stops.empty()) return nullptr;
+  const auto count = static_cast<std::ptrdiff_t>(stops.size());
   const auto found = std::ranges::find(stops, now, &TourStop::face);
-  return found == stops.end() || found + 1 == stops.end() ? &stops.front() : &*(found + 1);
+  const std::ptrdiff_t place = found == stops.end() ? (by > 0 ? 0 : count - 1) : found - stops.begin() + by;
+  return &stops[static_cast<std::size_t>((place + count) % count)];
 }
 
 }  // namespace footwall::ui

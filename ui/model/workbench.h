@@ -7,6 +7,7 @@
 #include "ui/model/document.h"
 #include "ui/model/engine_link.h"
 #include "ui/model/jobs.h"
+#include "ui/model/mouse_bindings.h"
 #include "ui/model/picking.h"
 #include "ui/model/section_reader.h"
 #include "ui/model/selection.h"
@@ -29,6 +30,7 @@ struct Workbench {
   EngineLink engine;
   Surfaces surfaces;
   Jobs jobs;
+  MouseChoice mouse;
 
  private:
   void store_display();

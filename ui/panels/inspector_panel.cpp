@@ -110,6 +110,7 @@ InspectorPanel::InspectorPanel(Workbench& workbench, FindAction action, QWidget*
   connect(&workbench_.document, &Document::survey_changed, this, &InspectorPanel::soon);
   connect(&workbench_.surfaces, &Surfaces::surfaces_changed, this, &InspectorPanel::soon);
   connect(&workbench_.surfaces, &Surfaces::numbers_changed, this, &InspectorPanel::soon);
+  connect(&workbench_.surfaces, &Surfaces::offsets_changed, this, &InspectorPanel::soon);
   connect(histogram_, &Histogram::range_changed, this, [this](double low, double high) {
     FaceLook look = workbench_.display.faces();
     look.low = low;

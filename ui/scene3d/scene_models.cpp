@@ -62,6 +62,12 @@ void SceneView::Private::connect_models() {
                      drawing.numbers_changed(faults);
                      changed();
                    });
+  QObject::connect(&workbench.surfaces, &Surfaces::offsets_changed, &view,
+                   [this](const std::set<Id>& faults) {
+                     if (!comes_late(workbench.display.faces().statistic)) return;
+                     drawing.numbers_changed(faults);
+                     changed();
+                   });
   QObject::connect(&workbench.selection, &Selection::changed, &view, [this] {
     drawing.selection_changed();
     changed();

@@ -14,11 +14,14 @@ namespace {
 using render::Vec3;
 
 constexpr double kTravel = 4;  // pixels before anything moves
+constexpr double kZoomOfPixel = 1.01;
+constexpr double kZoomOfNotch = 0.85;
 
 }  // namespace
 
 void SceneView::Private::show_pointer() {
-  if (mouse == Mouse::kOrbit || mouse == Mouse::kPan || mouse == Mouse::kPlane) return;
+  if (mouse == Mouse::kOrbit || mouse == Mouse::kPan || mouse == Mouse::kZoom || mouse == Mouse::kPlane)
+    return;
   Qt::CursorShape shape = Qt::ArrowCursor;
   switch (workbench.picking.shape()) {
     case PointerShape::kArrow:
@@ -107,12 +110,20 @@ void SceneView::Private::drag_plane(const QPointF& pixel) {
 
 void SceneView::mousePressEvent(QMouseEvent* event) {
   Private& d = *d_;
+  if (d.mouse != Private::Mouse::kNone) return;  // a second button changes nothing
   d.pressed_at = d.last_at = event->position();
+  d.pressed_button = event->button();
   d.travelled = false;
   const bool left = event->button() == Qt::LeftButton;
+  const bool shift = event->modifiers().testFlag(Qt::ShiftModifier);
   const bool navigating = left && (event->modifiers().testFlag(Qt::AltModifier) || d.space_held);
-  if (event->button() == Qt::MiddleButton || navigating) {
-    d.mouse = event->modifiers().testFlag(Qt::ShiftModifier) ? Private::Mouse::kPan : Private::Mouse::kOrbit;
+  const MouseAction does =
+      navigating ? (shift ? MouseAction::kPan : MouseAction::kOrbit)
+                 : action_of(d.workbench.mouse.preset().scene, event->button(), event->modifiers());
+  if (does != MouseAction::kNone) {
+    d.mouse = does == MouseAction::kPan    ? Private::Mouse::kPan
+              : does == MouseAction::kZoom ? Private::Mouse::kZoom
+                                           : Private::Mouse::kOrbit;
     setCursor(Qt::ClosedHandCursor);
     return;
   }
@@ -124,6 +135,7 @@ void SceneView::mousePressEvent(QMouseEvent* event) {
     d.mouse = Private::Mouse::kPicking;
   } else if (left) {
     d.mouse = Private::Mouse::kPressed;
+    d.lasso = shift;
   }
 }
 
@@ -145,11 +157,19 @@ void SceneView::mouseMoveEvent(QMouseEvent* event) {
       d.drawing.camera.pan(by.x(), by.y(), d.size());
       d.camera_moved();
       break;
+    case Private::Mouse::kZoom:
+      if (d.travelled) d.zoom_at(d.pressed_at, std::pow(kZoomOfPixel, by.y()));
+      break;
     case Private::Mouse::kPlane:
       if (d.travelled) d.drag_plane(at);
       break;
-    case Private::Mouse::kPicking:
     case Private::Mouse::kPressed:
+      if (d.travelled) d.mouse = Private::Mouse::kSelecting;
+      [[fallthrough]];
+    case Private::Mouse::kSelecting:
+      if (d.travelled) d.extend_selecting(at);
+      break;
+    case Private::Mouse::kPicking:
     case Private::Mouse::kNone:
       d.hover(at, *event);
       break;
@@ -159,13 +179,18 @@ void SceneView::mouseMoveEvent(QMouseEvent* event) {
 
 void SceneView::mouseReleaseEvent(QMouseEvent* event) {
   Private& d = *d_;
+  if (event->button() != d.pressed_button) return;
   const auto was = std::exchange(d.mouse, Private::Mouse::kNone);
   const Under below = under(event->position());
   const Pointer pointer =
       d.pointer_of(below, event->position(), event->button(), event->modifiers(), event->timestamp());
   if (was == Private::Mouse::kPicking) {
     d.workbench.picking.release(pointer);
-  } else if (was == Private::Mouse::kPressed && !d.travelled) {
+  } else if (was == Private::Mouse::kSelecting) {
+    const QPolygonF region = d.selecting;
+    d.stop_selecting();
+    if (region.size() > 2) d.select_within(region, event->modifiers().testFlag(Qt::ControlModifier));
+  } else if (was == Private::Mouse::kPressed) {
     const bool marks = below.item.kind == Item::Kind::kNode || below.item.kind == Item::Kind::kPillar ||
                        below.item.kind == Item::Kind::kFace;
     const bool extend = event->modifiers().testFlag(Qt::ControlModifier);
@@ -188,29 +213,53 @@ void SceneView::mouseDoubleClickEvent(QMouseEvent* event) {
   if (!d_->workbench.picking.double_click(pointer)) mousePressEvent(event);
 }
 
-void SceneView::wheelEvent(QWheelEvent* event) {
-  Private& d = *d_;
-  const double notches = event->angleDelta().y() / 120.0;
-  if (notches == 0 || !d.drawing.frame()) return;
-  OrbitCamera& camera = d.drawing.camera;
-  // What is under the mouse stays there; beside everything, the plane through the target.
-  const Ray ray = camera.ray(event->position(), d.size());
-  const Under below = under(event->position());
-  const render::Camera seen = d.drawing.seen();
+void SceneView::Private::zoom_at(const QPointF& pixel, double factor) {
+  if (!drawing.frame()) return;
+  OrbitCamera& camera = drawing.camera;
+  // Beside everything, the plane through the target.
+  const Ray ray = camera.ray(pixel, size());
+  const Under below = view.under(pixel);
+  const render::Camera seen = drawing.seen();
   const double towards = dot(ray.along, seen.forward);
   Vec3 at = ray.from + ray.along * (dot(camera.target() - ray.from, seen.forward) / towards);
   if (below.hit) {
-    const Vec3 hit = d.drawing.frame()->scene_of(below.place);
+    const Vec3 hit = drawing.frame()->scene_of(below.place);
     at = ray.from + ray.along * (dot(hit - ray.from, seen.forward) / towards);
   }
-  camera.zoom(std::pow(0.85, notches), at);
-  d.camera_moved();
+  camera.zoom(factor, at);
+  camera_moved();
+}
+
+void SceneView::wheelEvent(QWheelEvent* event) {
+  const double notches = event->angleDelta().y() / 120.0;
+  if (notches == 0) return;
+  d_->zoom_at(event->position(), std::pow(kZoomOfNotch, notches));
   event->accept();
+}
+
+// Before the window's shortcuts get them: Esc while a box or lasso is drawn, and what the window's own
+// actions send here as keys (F, Home), which would find their way back to these actions for ever.
+bool SceneView::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride) {
+    const auto& key = *static_cast<QKeyEvent*>(event);
+    const bool ends_selecting = d_->mouse == Private::Mouse::kSelecting && key.key() == Qt::Key_Escape;
+    const bool own =
+        key.modifiers() == Qt::NoModifier && (key.key() == Qt::Key_F || key.key() == Qt::Key_Home);
+    if (ends_selecting || own) {
+      event->accept();
+      return true;
+    }
+  }
+  return QOpenGLWidget::event(event);
 }
 
 void SceneView::keyPressEvent(QKeyEvent* event) {
   Private& d = *d_;
   if (event->key() == Qt::Key_Space && !event->isAutoRepeat()) d.space_held = true;
+  if (event->key() == Qt::Key_Escape && d.mouse == Private::Mouse::kSelecting) {
+    d.mouse = Private::Mouse::kNone;
+    return d.stop_selecting();
+  }
   if (d.workbench.picking.key_press(event->key(), event->modifiers())) return;
   if (event->modifiers() != Qt::NoModifier && event->modifiers() != Qt::KeypadModifier) {
     return QOpenGLWidget::keyPressEvent(event);

@@ -1,9 +1,11 @@
 // What a SceneView keeps: what is drawn (scene_drawing.h) and what the mouse is doing.
 #pragma once
 #include <QElapsedTimer>
+#include <QPolygonF>
 #include <QTimer>
 
 #include "ui/scene3d/scene_drawing.h"
+#include "ui/scene3d/selecting_overlay.h"
 
 namespace footwall::ui {
 
@@ -11,7 +13,7 @@ struct SceneView::Private {
   Private(SceneView& owner, Workbench& workbench_)
       : view(owner), workbench(workbench_), drawing(workbench_) {}
 
-  enum class Mouse { kNone, kOrbit, kPan, kPlane, kPicking, kPressed };
+  enum class Mouse { kNone, kOrbit, kPan, kZoom, kPlane, kPicking, kPressed, kSelecting };
 
   SceneView& view;
   Workbench& workbench;
@@ -38,7 +40,11 @@ struct SceneView::Private {
   Id plane = 0;                  // being dragged
   std::int64_t plane_index = 0;  // when the drag began
   render::Vec3 plane_grip, plane_step;
+  Qt::MouseButton pressed_button = Qt::NoButton;
+  bool lasso = false;  // else a box
   bool space_held = false;
+  QPolygonF selecting;  // box or lasso under way, in pixels
+  SelectingOverlay* overlay = nullptr;
 
   void connect_models();
   void take_style();
@@ -64,7 +70,16 @@ struct SceneView::Private {
   void begin_plane_drag(Id plane, const QPointF& pixel);
   void drag_plane(const QPointF& pixel);
   double along_step(const QPointF& pixel) const;
+  // factor: of the distance; what is under the pixel stays there.
+  void zoom_at(const QPointF& pixel, double factor);
   void show_pointer();
+
+  // Selecting by box and lasso.
+  void extend_selecting(const QPointF& at);
+  void stop_selecting();
+  void select_within(const QPolygonF& region, bool extend);
+  // The nearest opaque thing along the view's axis under a pixel; infinite where there is none.
+  double depth_at(const QPointF& pixel, const render::Camera& camera) const;
 };
 
 }  // namespace footwall::ui

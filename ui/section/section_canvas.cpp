@@ -112,9 +112,6 @@ void SectionCanvas::connect_models() {
   connect(&bench_.picking, &Picking::stroke_changed, this, overlay);
   connect(&bench_.picking, &Picking::hint_changed, this, &SectionCanvas::show_pointer_shape);
   connect(&bench_.picking, &Picking::tool_changed, this, &SectionCanvas::show_pointer_shape);
-  connect(&bench_.picking, &Picking::pillar_ended, this, [this] {
-    if (steps_after_pillar_ && hasFocus()) step(step_lines());
-  });
 }
 
 void SectionCanvas::take_survey() {
@@ -221,11 +218,6 @@ void SectionCanvas::fit(bool true_proportions) {
   view_.fit(true_proportions);
   redraw_base();
   Q_EMIT view_changed();
-}
-
-int SectionCanvas::step_lines() const {
-  const int step = bench_.display.step();
-  return step == 1 && bench_.picking.tool() == Tool::kPick ? 10 : step;
 }
 
 void SectionCanvas::step(std::int64_t lines) {

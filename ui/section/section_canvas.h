@@ -32,11 +32,8 @@ class SectionCanvas final : public QWidget {
   QString message() const;
 
   void step(std::int64_t lines);
-  int step_lines() const;  // of X and Z
   void fit(bool true_proportions = false);
   void frame_selection();
-  void set_steps_after_pillar(bool on) { steps_after_pillar_ = on; }
-  bool steps_after_pillar() const { return steps_after_pillar_; }
   // The number being typed for a jump, with its kind of line; empty where none is.
   QString jump_text() const { return jump_; }
 
@@ -66,7 +63,7 @@ class SectionCanvas final : public QWidget {
   void focusOutEvent(QFocusEvent* event) override;
 
  private:
-  enum class Hold { kNone, kPan, kPicking, kSelect };
+  enum class Hold { kNone, kPan, kZoom, kPicking, kSelect };
 
   void connect_models();
   void follow_display();
@@ -126,7 +123,7 @@ class SectionCanvas final : public QWidget {
   bool mouse_inside_ = false;
   QPolygonF selecting_;  // box or lasso under way
   QString jump_;
-  bool steps_after_pillar_ = false;
+  double wheel_turned_ = 0;  // eighths of a degree since the last step
 };
 
 }  // namespace footwall::ui

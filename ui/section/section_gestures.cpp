@@ -13,6 +13,8 @@ namespace footwall::ui {
 namespace {
 
 constexpr double kTravel = 4;  // pixels before anything moves
+constexpr double kZoomOfPixel = 1.01;
+constexpr double kNotch = 120;  // of a wheel, in eighths of a degree
 
 std::chrono::milliseconds time_of(const QInputEvent& event) {
   return std::chrono::milliseconds(event.timestamp());
@@ -80,8 +82,13 @@ void SectionCanvas::mousePressEvent(QMouseEvent* event) {
   pressed_ = pointer;
   far_ = false;
   const bool left = event->button() == Qt::LeftButton;
-  if (event->button() == Qt::MiddleButton || (left && space_)) {
+  const MouseAction does =
+      left && space_ ? MouseAction::kPan
+                     : action_of(bench_.mouse.preset().section, event->button(), event->modifiers());
+  if (does == MouseAction::kPan) {
     hold_ = Hold::kPan;
+  } else if (does == MouseAction::kZoom) {
+    hold_ = Hold::kZoom;
   } else if (bench_.picking.press(pointer)) {
     hold_ = Hold::kPicking;
     stroke_here_ = true;
@@ -103,6 +110,14 @@ void SectionCanvas::mouseMoveEvent(QMouseEvent* event) {
     case Hold::kPan:
       if (far_) {
         view_.pan(at - last_at_);
+        last_at_ = at;
+        redraw_base();
+        Q_EMIT view_changed();
+      }
+      return;
+    case Hold::kZoom:
+      if (far_) {
+        view_.zoom(pressed_at_, std::pow(kZoomOfPixel, last_at_.y() - at.y()));
         last_at_ = at;
         redraw_base();
         Q_EMIT view_changed();
@@ -168,7 +183,17 @@ void SectionCanvas::wheelEvent(QWheelEvent* event) {
   // Some platforms turn Shift+wheel into a sideways one.
   const double delta = event->angleDelta().y() != 0 ? event->angleDelta().y() : event->angleDelta().x();
   if (delta == 0 || !message().isEmpty()) return;
-  const double factor = std::pow(1.2, delta / 120);
+  event->accept();
+  const bool other = event->modifiers().testFlag(Qt::ControlModifier);
+  if (!event->modifiers().testFlag(Qt::ShiftModifier) && bench_.mouse.preset().wheel_steps != other) {
+    // Away from the hand is on; a pad turns it in parts of a notch.
+    wheel_turned_ += delta;
+    const double notches = std::trunc(wheel_turned_ / kNotch);
+    wheel_turned_ -= notches * kNotch;
+    if (notches != 0) step(static_cast<std::int64_t>(notches) * bench_.picking.step_lines());
+    return;
+  }
+  const double factor = std::pow(1.2, delta / kNotch);
   if (event->modifiers().testFlag(Qt::ShiftModifier) && view_.frame().vertical) {
     view_.stretch(event->position(), factor);
   } else {
@@ -176,7 +201,6 @@ void SectionCanvas::wheelEvent(QWheelEvent* event) {
   }
   redraw_base();
   Q_EMIT view_changed();
-  event->accept();
 }
 
 void SectionCanvas::select_under(const Pointer& pointer) {
@@ -255,7 +279,7 @@ void SectionCanvas::jump() {
 bool SectionCanvas::move_by_key(const QKeyEvent& event) {
   if (event.modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier)) return false;
   const bool shift = event.modifiers().testFlag(Qt::ShiftModifier);
-  const std::int64_t lines = shift ? 1 : step_lines();
+  const std::int64_t lines = shift ? 1 : bench_.picking.step_lines();
   const QPointF page(view_.area().width() / 10, view_.area().height() / 10);
   QPointF pan;
   double zoom = 1;
@@ -319,7 +343,8 @@ bool SectionCanvas::event(QEvent* event) {
     const bool ends_jump =
         !jump_.isEmpty() && (key.key() == Qt::Key_Return || key.key() == Qt::Key_Enter ||
                              key.key() == Qt::Key_Escape || key.key() == Qt::Key_Backspace);
-    if (plain && (digit || ends_jump || std::ranges::find(kOwn, key.key()) != kOwn.end())) {
+    const bool ends_selecting = hold_ == Hold::kSelect && key.key() == Qt::Key_Escape;
+    if (plain && (digit || ends_jump || ends_selecting || std::ranges::find(kOwn, key.key()) != kOwn.end())) {
       event->accept();
       return true;
     }

@@ -12,6 +12,7 @@ std::vector<ActionRow> edit_actions();
 std::vector<ActionRow> view_actions();
 std::vector<ActionRow> survey_actions();
 std::vector<ActionRow> fault_actions();
+std::vector<ActionRow> tour_actions();  // in the menu of faults
 std::vector<ActionRow> compute_actions();
 std::vector<ActionRow> window_actions();
 std::vector<ActionRow> help_actions();

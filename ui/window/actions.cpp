@@ -2,6 +2,8 @@
 
 #include <QCoreApplication>
 #include <QMenuBar>
+#include <string>
+#include <utility>
 
 #include "ui/window/action_groups.h"
 #include "ui/window/main_window.h"
@@ -29,7 +31,7 @@ QList<QKeySequence> keys_of(const ActionRow& row) {
 std::vector<ActionRow> action_table() {
   std::vector<ActionRow> table;
   for (const auto& group : {file_actions(), edit_actions(), view_actions(), survey_actions(), fault_actions(),
-                            compute_actions(), window_actions(), help_actions()}) {
+                            tour_actions(), compute_actions(), window_actions(), help_actions()}) {
     table.insert(table.end(), group.begin(), group.end());
   }
   return table;
@@ -83,11 +85,18 @@ QAction* Actions::action(const QString& id) const {
 
 void Actions::fill(QMenuBar& bar) const {
   std::map<Menu, QMenu*> menus;
+  std::map<std::pair<Menu, std::string>, QMenu*> submenus;
   for (const ActionRow& row : table_) {
     QMenu*& menu = menus[row.menu];
     if (menu == nullptr) menu = bar.addMenu(title_of(row.menu));
     if (row.starts_group) menu->addSeparator();
-    menu->addAction(action(QString::fromLatin1(row.id)));
+    QMenu* into = menu;
+    if (row.submenu != nullptr) {
+      QMenu*& sub = submenus[{row.menu, row.submenu}];
+      if (sub == nullptr) sub = menu->addMenu(translated(row.submenu));
+      into = sub;
+    }
+    into->addAction(action(QString::fromLatin1(row.id)));
   }
 }
 
@@ -112,6 +121,8 @@ unsigned Actions::met() const {
   add(!selection.faults().empty() || !selection.pillars().empty() || !selection.nodes().empty() ||
           kind == Item::Kind::kIsosurface || kind == Item::Kind::kView,
       kAnything);
+  add(bench->picking.tool() == Tool::kSelect && (kind == Item::Kind::kFace || !selection.pillars().empty()),
+      kShiftable);
   add(bench->document.can_undo(), kUndo);
   add(bench->document.can_redo(), kRedo);
   const ViewArea* views = window_.views();

@@ -28,11 +28,12 @@ enum Needs : unsigned {
   kAnything = 128,  // something is selected that can be deleted
   kUndo = 256,      // there is a step to undo
   kRedo = 512,
-  kView = 1024,     // a view is active
-  kSection = 2048,  // it is a section
-  kJob = 4096,      // a job runs
-  kScene = 16384,   // the scene is open and built
-  kPicked = 8192,   // pillars themselves are selected
+  kView = 1024,        // a view is active
+  kSection = 2048,     // it is a section
+  kJob = 4096,         // a job runs
+  kScene = 16384,      // the scene is open and built
+  kPicked = 8192,      // pillars themselves are selected
+  kShiftable = 32768,  // with the Select tool a face or pillars: what a suggested shift is of
 };
 
 struct ActionRow {
@@ -47,6 +48,7 @@ struct ActionRow {
   bool (*checked)(MainWindow& window) =
       nullptr;                // of a switch: whether it is on; asked only where `needs` are met
   bool starts_group = false;  // a line above it in the menu
+  const char* submenu = nullptr;  // of the menu, to be translated; rows of the same one stand together
 };
 
 // In the order of the menus.

@@ -8,6 +8,7 @@
 #include "ui/dialogs/import_segy_dialog.h"
 #include "ui/dialogs/isosurface_dialog.h"
 #include "ui/dialogs/run_dialog.h"
+#include "ui/dialogs/transform_dialog.h"
 #include "ui/window/main_window.h"
 #include "ui/window/view_area.h"
 #include "ui/window/view_tile.h"
@@ -57,6 +58,24 @@ void open_export_dialog(MainWindow& window) {
     };
   }
   show(new ExportDialog(*window.workbench(), std::move(write), &window));
+}
+
+void open_transform_dialog(MainWindow& window) {
+  const Workbench& bench = *window.workbench();
+  const Selection& selection = bench.selection;
+  const auto moved =
+      transformed(bench.document, selection.faults(), selection.pillars(), selection.nodes(), {});
+  if (moved.empty()) {
+    return window.tell_failure(window.tr("nothing is selected that has nodes"),
+                               window.tr("select nodes, pillars or faults first"));
+  }
+  for (const auto& [node, place] : moved) {
+    const Fault* fault = bench.document.fault_of_node(node);
+    if (!fault->record.locked) continue;
+    return window.tell_failure(window.tr("%1 is locked").arg(QString::fromStdString(fault->record.name)),
+                               window.tr("unlock it first"));
+  }
+  show(new TransformDialog(*window.workbench(), &window));
 }
 
 void open_isosurface_dialog(MainWindow& window, Id isosurface) {

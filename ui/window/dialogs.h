@@ -12,6 +12,8 @@ class MainWindow;
 void import_volume(MainWindow& window, const QString& path, bool anew);
 void open_run_dialog(MainWindow& window);
 void open_export_dialog(MainWindow& window);
+// Of what is selected; says why where that cannot be moved.
+void open_transform_dialog(MainWindow& window);
 // isosurface: of Display; 0: a new one.
 void open_isosurface_dialog(MainWindow& window, Id isosurface);
 

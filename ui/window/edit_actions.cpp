@@ -1,5 +1,7 @@
 #include <QApplication>
 #include <QDockWidget>
+#include <QInputDialog>
+#include <optional>
 
 #include "ui/panels/project_panel.h"
 #include "ui/window/action_groups.h"
@@ -40,9 +42,78 @@ bool is_chosen(MainWindow& window) {
   return window.workbench()->picking.tool() == kTool;
 }
 
-}  // namespace
+Display& display(MainWindow& window) {
+  return window.workbench()->display;
+}
 
-std::vector<ActionRow> edit_actions() {
+void set_step(MainWindow& window) {
+  bool ok = false;
+  const int lines = QInputDialog::getInt(
+      &window, QCoreApplication::translate("Actions", "Step"),
+      QCoreApplication::translate("Actions", "Lines that X and Z move by (0: 10 while picking, else 1):"),
+      display(window).own_step().value_or(0), 0, 100000, 1, &ok);
+  if (ok) display(window).set_own_step(lines == 0 ? std::nullopt : std::optional(lines));
+}
+
+// A row of the menu of mouse presets.
+template <std::size_t kPreset>
+ActionRow mouse_row(const char* id, const char* name, const char* key, const char* tip) {
+  return {id,
+          Menu::kEdit,
+          name,
+          key,
+          "mouse",
+          tip,
+          kProject,
+          [](MainWindow& window) {
+            window.workbench()->mouse.choose(QLatin1String(mouse_presets()[kPreset].name));
+          },
+          [](MainWindow& window) { return &window.workbench()->mouse.preset() == &mouse_presets()[kPreset]; },
+          false,
+          QT_TRANSLATE_NOOP("Actions", "Mo&use")};
+}
+
+std::vector<ActionRow> tool_actions() {
+  using M = Menu;
+  constexpr unsigned kPicks = kProject | kSurvey;
+  return {
+      {"pick.snap-section", M::kEdit, QT_TRANSLATE_NOOP("Actions", "Snap to section"), "Shift+G",
+       "snap-section",
+       QT_TRANSLATE_NOOP("Actions", "A node that is moved comes to lie exactly on the section"), kPicks,
+       [](MainWindow& window) {
+         display(window).set_snapping(!display(window).snaps_to_section(),
+                                      display(window).snaps_to_samples());
+       },
+       [](MainWindow& window) { return display(window).snaps_to_section(); }, true},
+      {"pick.snap-samples", M::kEdit, QT_TRANSLATE_NOOP("Actions", "Snap to samples"), "G", "snap-samples",
+       QT_TRANSLATE_NOOP("Actions", "Picked and moved nodes come to lie on samples"), kPicks,
+       [](MainWindow& window) {
+         display(window).set_snapping(display(window).snaps_to_section(),
+                                      !display(window).snaps_to_samples());
+       },
+       [](MainWindow& window) { return display(window).snaps_to_samples(); }},
+      {"pick.step-after", M::kEdit, QT_TRANSLATE_NOOP("Actions", "Step after each pillar"), "Alt+X",
+       "step-after",
+       QT_TRANSLATE_NOOP("Actions", "The section moves on by the step when a pillar on it is ended"), kPicks,
+       [](MainWindow& window) {
+         display(window).set_steps_after_pillar(!display(window).steps_after_pillar());
+       },
+       [](MainWindow& window) { return display(window).steps_after_pillar(); }},
+      {"pick.step", M::kEdit, QT_TRANSLATE_NOOP("Actions", "Step…"), "Ctrl+Alt+X", "step",
+       QT_TRANSLATE_NOOP("Actions", "How many lines X and Z move by"), kPicks, set_step},
+      mouse_row<0>("mouse.footwall", QT_TRANSLATE_NOOP("Actions", "&Footwall"), "Ctrl+Alt+1",
+                   QT_TRANSLATE_NOOP("Actions", "The middle button pans sections and turns the scene")),
+      mouse_row<1>("mouse.opendtect", QT_TRANSLATE_NOOP("Actions", "&OpendTect"), "Ctrl+Alt+2",
+                   QT_TRANSLATE_NOOP("Actions", "The middle button pans, the right one turns the scene")),
+      mouse_row<2>("mouse.petrel", QT_TRANSLATE_NOOP("Actions", "&Petrel-like"), "Ctrl+Alt+3",
+                   QT_TRANSLATE_NOOP("Actions",
+                                     "Middle and right button pan sections, the right one turns the scene")),
+      mouse_row<3>("mouse.landmark", QT_TRANSLATE_NOOP("Actions", "&Landmark"), "Ctrl+Alt+4",
+                   QT_TRANSLATE_NOOP("Actions", "The wheel steps through lines, the right button zooms")),
+  };
+}
+
+std::vector<ActionRow> first_actions() {
   using M = Menu;
   return {
       {"edit.undo", M::kEdit, QT_TRANSLATE_NOOP("Actions", "&Undo"), "Ctrl+Z", "undo",
@@ -78,6 +149,14 @@ std::vector<ActionRow> edit_actions() {
        QT_TRANSLATE_NOOP("Actions", "Leave what is under way with nothing changed, and select again"),
        kProject, leave},
   };
+}
+
+}  // namespace
+
+std::vector<ActionRow> edit_actions() {
+  std::vector<ActionRow> all = first_actions();
+  for (const ActionRow& row : tool_actions()) all.push_back(row);
+  return all;
 }
 
 }  // namespace footwall::ui

@@ -1,15 +1,13 @@
-#include <QApplication>
 #include <QColorDialog>
+#include <QCoreApplication>
 #include <QInputDialog>
-#include <QKeyEvent>
+#include <algorithm>
 
 #include "engine/tasks/triangulate.h"
 #include "ui/model/fault_commands.h"
-#include "ui/model/tour.h"
 #include "ui/window/action_groups.h"
+#include "ui/window/dialogs.h"
 #include "ui/window/main_window.h"
-#include "ui/window/view_area.h"
-#include "ui/window/view_tile.h"
 
 namespace footwall::ui {
 namespace {
@@ -100,6 +98,14 @@ void resample(MainWindow& window) {
   if (ok) resample_pillars(document(window), chosen_pillars(window), nodes);
 }
 
+void resample_to_spacing(MainWindow& window) {
+  bool ok = false;
+  const double metres = QInputDialog::getDouble(&window, translated("Resample to spacing"),
+                                                translated("Metres between nodes along each pillar:"), 100,
+                                                0.1, 100000, 1, &ok);
+  if (ok) resample_by_spacing(document(window), chosen_pillars(window), metres);
+}
+
 // A task of the engine's that edits the project itself, for each chosen fault.
 template <class Task>
 void for_faults(MainWindow& window, const Task& task) {
@@ -129,39 +135,6 @@ void drop_interpolated(MainWindow& window) {
   for_faults(window, [](project::Project& project, const project::FaultRecord& fault) {
     tasks::remove_interpolated(project, fault);
   });
-}
-
-// The face of the next lowest contrast, in the middle of every view.
-void go_to_worst(MainWindow& window) {
-  Workbench& bench = *window.workbench();
-  const Item now = bench.selection.current();
-  const Id fault = now.kind == Item::Kind::kFace ? now.id : *chosen_faults(window).begin();
-  const auto surface = bench.surfaces.surface(fault);
-  const auto contrast = bench.surfaces.numbers(fault, QStringLiteral("contrast"));
-  std::vector<TourStop> stops;
-  if (surface && contrast) stops = worst_faces(*surface, *contrast);
-  const TourStop* stop = next_stop(stops, now);
-  if (stop == nullptr) {
-    return window.tell_failure(translated("the contrast of no face of this fault is known"),
-                               translated("Compute > Update all computes them"));
-  }
-  bench.selection.select(stop->face);
-  bench.display.set_cursor(stop->place);
-  const auto sections = bench.display.sections();
-  for (const Display::ShownSection& shown : sections) {
-    if (!shown.linked || shown.section.kind == Section::Kind::kLine) continue;
-    Section moved = shown.section;
-    moved.index = std::llround(moved.kind == Section::Kind::kInline      ? stop->place.i
-                               : moved.kind == Section::Kind::kCrossline ? stop->place.j
-                                                                         : stop->place.k);
-    bench.display.move_section(shown.id, stepped(moved, 0, *bench.document.survey()));
-  }
-  for (const ViewTile* tile : window.views()->tiles()) {
-    QKeyEvent frame(QEvent::KeyPress, Qt::Key_F, Qt::NoModifier);
-    QWidget* view = tile->view();
-    while (view->focusProxy() != nullptr) view = view->focusProxy();
-    QApplication::sendEvent(view, &frame);
-  }
 }
 
 }  // namespace
@@ -196,6 +169,13 @@ std::vector<ActionRow> fault_actions() {
       {"fault.resample", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Resample pillars…"), "Ctrl+Shift+R",
        "resample", QT_TRANSLATE_NOOP("Actions", "Another number of nodes, evenly spaced"), kEdit | kPillars,
        resample},
+      {"fault.resample-spacing", M::kFault, QT_TRANSLATE_NOOP("Actions", "Resample to spacing…"),
+       "Alt+Shift+R", "resample-spacing",
+       QT_TRANSLATE_NOOP("Actions", "Nodes evenly spaced, as many metres apart as you say"),
+       kEdit | kSurvey | kPillars, resample_to_spacing},
+      {"fault.transform", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Transform…"), "Ctrl+T", "transform",
+       QT_TRANSLATE_NOOP("Actions", "Move, turn and scale the selected nodes, pillars or faults by numbers"),
+       kEdit | kSurvey | kAnything, open_transform_dialog},
       {"fault.interpolate", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Interpolate pillars…"), "Ctrl+Shift+I",
        "pillars", QT_TRANSLATE_NOOP("Actions", "Pillars between picked ones, which follow them"),
        kEdit | kSurvey | kFault, interpolate, nullptr, true},
@@ -206,10 +186,6 @@ std::vector<ActionRow> fault_actions() {
        QT_TRANSLATE_NOOP("Actions", "Interpolated pillars become picked ones, as they stand"),
        kEdit | kPillars,
        [](MainWindow& window) { accept_pillars(document(window), chosen_pillars(window)); }},
-      {"fault.worst", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Worst next"), "W", "worst",
-       QT_TRANSLATE_NOOP(
-           "Actions", "Go to the face that sits worst on the fault, then to the next: lowest contrast first"),
-       kProject | kSurvey | kFault, go_to_worst, nullptr, true},
   };
 }
 

@@ -7,6 +7,7 @@
 #include <QFileInfo>
 #include <QFileSystemWatcher>
 #include <QJsonDocument>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QMenuBar>
 #include <QMimeData>
@@ -434,6 +435,23 @@ bool MainWindow::is_settled() const {
     return fault.pillars.size() < 2 || is_unassigned(fault) || !workbench_->document.survey() ||
            workbench_->surfaces.surface(id) || !workbench_->surfaces.problem(id).isEmpty();
   });
+}
+
+// Enter is a shortcut over the views alone: in a panel it belongs to the list or field there.
+bool MainWindow::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride) {
+    const auto& pressed = *static_cast<QKeyEvent*>(event);
+    const bool enter = (pressed.key() == Qt::Key_Return || pressed.key() == Qt::Key_Enter) &&
+                       (pressed.modifiers() & ~Qt::KeypadModifier) == 0;
+    const QWidget* focus = focusWidget();
+    const bool in_views =
+        focus == nullptr || focus == this || (views_ != nullptr && views_->isAncestorOf(focus));
+    if (enter && !in_views) {
+      event->accept();
+      return true;
+    }
+  }
+  return QMainWindow::event(event);
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

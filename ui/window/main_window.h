@@ -54,6 +54,7 @@ class MainWindow final : public QMainWindow {
   bool is_settled() const;
 
  protected:
+  bool event(QEvent* event) override;
   void closeEvent(QCloseEvent* event) override;
   void changeEvent(QEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;

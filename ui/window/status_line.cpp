@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "ui/model/accept_shift.h"
+
 namespace footwall::ui {
 namespace {
 
@@ -67,6 +69,9 @@ void StatusLine::show_workbench(Workbench* workbench) {
     workbench_->display.disconnect(this);
     workbench_->picking.disconnect(this);
     workbench_->sections.disconnect(this);
+    workbench_->selection.disconnect(this);
+    workbench_->surfaces.disconnect(this);
+    workbench_->document.disconnect(this);
   }
   workbench_ = workbench;
   if (workbench_ != nullptr) {
@@ -74,8 +79,21 @@ void StatusLine::show_workbench(Workbench* workbench) {
     connect(&workbench_->display, &Display::samples_changed, this, &StatusLine::refresh);
     connect(&workbench_->sections, &SectionReader::ready, this, &StatusLine::refresh);
     connect(&workbench_->picking, &Picking::hint_changed, this, &StatusLine::refresh);
-    connect(&workbench_->picking, &Picking::tool_changed, this, &StatusLine::refresh);
+    connect(&workbench_->picking, &Picking::tool_changed, this, &StatusLine::refresh_shift);
+    connect(&workbench_->selection, &Selection::changed, this, &StatusLine::refresh_shift);
+    connect(&workbench_->surfaces, &Surfaces::numbers_changed, this, &StatusLine::refresh_shift);
+    connect(&workbench_->surfaces, &Surfaces::offsets_changed, this, &StatusLine::refresh_shift);
+    connect(&workbench_->document, &Document::faults_changed, this, &StatusLine::refresh_shift);
+    connect(&workbench_->document, &Document::shapes_changed, this, &StatusLine::refresh_shift);
   }
+  refresh_shift();
+}
+
+// By itself: it looks at all faces of a fault, and the mouse moves often.
+void StatusLine::refresh_shift() {
+  shift_.clear();
+  if (workbench_ != nullptr && workbench_->picking.tool() == Tool::kSelect)
+    shift_ = shift_hint(workbench_->document, workbench_->surfaces, workbench_->selection);
   refresh();
 }
 
@@ -90,6 +108,7 @@ void StatusLine::refresh() {
   QString hint;
   if (workbench_ != nullptr) {
     hint = workbench_->picking.hint();
+    if (!shift_.isEmpty()) hint = hint.isEmpty() ? shift_ : tr("%1; %2").arg(shift_, hint);
     const auto& survey = workbench_->document.survey();
     const auto& cursor = workbench_->display.cursor();
     if (survey && cursor) {

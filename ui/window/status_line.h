@@ -1,5 +1,5 @@
 // The line at the bottom: where the mouse is and the value there, and at the right what the next click would
-// do.
+// do, and Enter where it accepts a shift.
 #pragma once
 #include <QString>
 #include <QWidget>
@@ -38,9 +38,11 @@ class StatusLine final : public QWidget {
 
  private:
   void refresh();
+  void refresh_shift();
 
   Workbench* workbench_ = nullptr;
   std::vector<ReadOut> words_;
+  QString shift_;  // what Enter would do, where it would do something
   QString hint_;
 };
 

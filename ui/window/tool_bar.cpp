@@ -136,9 +136,11 @@ ToolBar::ToolBar(const Actions& actions, QWidget* parent) : QToolBar(tr("Tools")
     }
   });
   step_ = add_choice(tr("Lines that X and Z move by"), [this](QMenu& menu) {
+    connect(menu.addAction(tr("step by the tool: 10 while picking, else 1")), &QAction::triggered, this,
+            [this] { workbench_->display.set_own_step(std::nullopt); });
     for (const int lines : {1, 2, 5, 10, 20, 50}) {
       connect(menu.addAction(tr("step %1").arg(lines)), &QAction::triggered, this,
-              [this, lines] { workbench_->display.set_step(lines); });
+              [this, lines] { workbench_->display.set_own_step(lines); });
     }
   });
   addSeparator();
@@ -200,12 +202,16 @@ void ToolBar::fill_statistics(QMenu& menu) {
 }
 
 void ToolBar::show_workbench(Workbench* workbench) {
-  if (workbench_ != nullptr) workbench_->display.disconnect(this);
+  if (workbench_ != nullptr) {
+    workbench_->display.disconnect(this);
+    workbench_->picking.disconnect(this);
+  }
   workbench_ = workbench;
   if (workbench_ == nullptr) return;
   for (const auto signal : {&Display::samples_changed, &Display::faces_changed, &Display::scene_changed}) {
     connect(&workbench_->display, signal, this, &ToolBar::refresh);
   }
+  connect(&workbench_->picking, &Picking::tool_changed, this, &ToolBar::refresh);  // for the step
   refresh();
 }
 
@@ -214,7 +220,7 @@ void ToolBar::refresh() {
   colours_->setText(QLatin1Char(' ') + display.samples().colour_map);
   colours_->setIcon(gradient(display.samples().colour_map));
   clip_->setText(tr("clip %1 %").arg(display.samples().clip_percentile));
-  step_->setText(tr("step %1").arg(display.step()));
+  step_->setText(tr("step %1").arg(workbench_->picking.step_lines()));
   switch (display.faces().colours) {
     case FaceColours::kStatistic:
       statistic_->setText(QLatin1Char(' ') + spoken(display.faces().statistic));

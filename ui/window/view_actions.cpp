@@ -42,7 +42,8 @@ void step(MainWindow& window, int steps) {
   const auto& survey = window.workbench()->document.survey();
   if (shown == all.end() || !survey) return;
   display(window).move_section(
-      id, stepped(shown->section, static_cast<std::int64_t>(steps) * display(window).step(), *survey));
+      id, stepped(shown->section, static_cast<std::int64_t>(steps) * window.workbench()->picking.step_lines(),
+                  *survey));
 }
 
 // What each kind of view does in its own way goes to it as the key that it knows.
@@ -97,6 +98,19 @@ bool is_coloured_by(MainWindow& window, const char* statistic) {
   return look.colours == FaceColours::kStatistic && look.statistic == QLatin1String(statistic);
 }
 
+// In a time survey without a velocity offsets are known in voxels alone.
+bool offsets_are_metric(MainWindow& window) {
+  const Document& document = window.workbench()->document;
+  if (!document.survey() || document.survey()->has_metric_depth()) return true;
+  try {
+    const auto velocity = document.project().setting("velocity");
+    return velocity && QString::fromStdString(*velocity).toDouble() > 0;
+  } catch (const Error& error) {
+    window.tell_failure(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
+    return false;
+  }
+}
+
 // A row that colours the faces by a statistic.
 template <const char* const& kStatistic>
 ActionRow statistic_row(const char* id, const char* name, const char* key, const char* tip,
@@ -135,6 +149,7 @@ ActionRow look_row(const char* id, const char* name, const char* key, const char
 constexpr const char* kVariance = "variance";
 constexpr const char* kContrast = "contrast";
 constexpr const char* kOffset = "offset";
+constexpr const char* kOffsetVoxels = "offset_voxels";
 constexpr const char* kMean = "mean";
 constexpr const char* kDip = "dip";
 constexpr const char* kAzimuth = "dip_azimuth";
@@ -240,9 +255,14 @@ std::vector<ActionRow> look_actions() {
       statistic_row<kContrast>(
           "view.contrast", QT_TRANSLATE_NOOP("Actions", "&Contrast"), "C",
           QT_TRANSLATE_NOOP("Actions", "Colour faces by contrast: how well each sits on the fault")),
-      statistic_row<kOffset>(
-          "view.offset", QT_TRANSLATE_NOOP("Actions", "&Offset"), "B",
-          QT_TRANSLATE_NOOP("Actions", "Colour faces by how far the fault seems to be beside them")),
+      {"view.offset", M::kView, QT_TRANSLATE_NOOP("Actions", "&Offset"), "B", "colours",
+       QT_TRANSLATE_NOOP("Actions", "Colour faces by how far the fault seems to be beside them"), kProject,
+       [](MainWindow& window) {
+         colour_by(window, FaceColours::kStatistic, offsets_are_metric(window) ? kOffset : kOffsetVoxels);
+       },
+       [](MainWindow& window) {
+         return is_coloured_by(window, kOffset) || is_coloured_by(window, kOffsetVoxels);
+       }},
       statistic_row<kMean>("view.mean", QT_TRANSLATE_NOOP("Actions", "&Mean"), "N",
                            QT_TRANSLATE_NOOP("Actions", "Colour faces by mean amplitude")),
       statistic_row<kDip>("view.dip", QT_TRANSLATE_NOOP("Actions", "D&ip"), "D",

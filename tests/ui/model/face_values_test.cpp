@@ -38,6 +38,7 @@ class FaceValuesTest final : public QObject {
   void a_moved_face_is_stale_until_it_is_answered();
   void a_face_that_came_back_is_fresh();
   void an_answer_to_an_older_edit_leaves_what_moved_since_stale();
+  void offsets_are_stale_by_themselves();
   void faces_that_are_gone_are_passed_over();
 };
 
@@ -45,12 +46,12 @@ void FaceValuesTest::a_moved_face_is_stale_until_it_is_answered() {
   FaceValues values;
   put(values, 0, 1);
   answer(values, 2, 3, 1);
-  QVERIFY(!values.any_stale());
+  QVERIFY(!values.any_stale("variance"));
   put(values, 50, 2);
   QCOMPARE(values.numbers("variance")->stale, (std::vector<std::uint8_t>{0, 1}));
   QCOMPARE(values.numbers("variance")->values, (std::vector<double>{2, 3}));  // the last one known, until then
   answer(values, 2, 5, 2);
-  QVERIFY(!values.any_stale());
+  QVERIFY(!values.any_stale("variance"));
   QCOMPARE(values.numbers("variance")->values, (std::vector<double>{2, 5}));
 }
 
@@ -60,7 +61,7 @@ void FaceValuesTest::a_face_that_came_back_is_fresh() {
   answer(values, 2, 3, 1);
   put(values, 50, 2);
   put(values, 0, 3);  // as after Esc; the engine was told neither
-  QVERIFY(!values.any_stale());
+  QVERIFY(!values.any_stale("variance"));
 }
 
 void FaceValuesTest::an_answer_to_an_older_edit_leaves_what_moved_since_stale() {
@@ -71,9 +72,28 @@ void FaceValuesTest::an_answer_to_an_older_edit_leaves_what_moved_since_stale() 
   answer(values, 2, 3, 1);
   QCOMPARE(values.numbers("variance")->stale, (std::vector<std::uint8_t>{0, 1}));
   answer(values, 2, 5, 3);
-  QVERIFY(!values.any_stale());
+  QVERIFY(!values.any_stale("variance"));
   put(values, 0, 4);
   QCOMPARE(values.numbers("variance")->stale, (std::vector<std::uint8_t>{0, 1}));
+}
+
+void FaceValuesTest::offsets_are_stale_by_themselves() {
+  FaceValues values;
+  put(values, 0, 1);
+  answer(values, 2, 3, 1);
+  QVERIFY(values.any_stale("offset_voxels"));
+  values.take({7, 7}, {0, 1}, {{"offset_voxels", {1, -1}}}, {0, 1}, 1);
+  QVERIFY(!values.any_stale("offset_voxels"));
+  put(values, 50, 2);
+  answer(values, 2, 5, 2);
+  QVERIFY(!values.any_stale("variance"));
+  QCOMPARE(values.numbers("offset_voxels")->stale, (std::vector<std::uint8_t>{0, 1}));
+  // The normal's side was turned.
+  values.mark_stale("offset_voxels");
+  QCOMPARE(values.numbers("offset_voxels")->stale, (std::vector<std::uint8_t>{1, 1}));
+  QVERIFY(!values.any_stale("variance"));
+  values.mark_all_stale();
+  QVERIFY(values.any_stale("variance"));
 }
 
 void FaceValuesTest::faces_that_are_gone_are_passed_over() {
@@ -83,7 +103,7 @@ void FaceValuesTest::faces_that_are_gone_are_passed_over() {
   put(values, 0, 1);
   values.take({9}, {0}, {{"variance", {4}}}, {0}, 1);
   QVERIFY(!values.is_known("variance"));
-  QVERIFY(values.any_stale());
+  QVERIFY(values.any_stale("variance"));
 }
 
 static const RegisterTest<FaceValuesTest> kRegistered;

@@ -17,6 +17,7 @@ class FaultCommandsTest final : public QObject {
   void deletes_what_is_chosen_twice_once();
   void merges_and_splits();
   void smooths_and_resamples();
+  void resamples_by_metres();
   void turns_and_scales_about_the_middle();
   void random_commands_can_all_be_undone_and_redone();
 };
@@ -157,6 +158,32 @@ void FaultCommandsTest::smooths_and_resamples() {
   const survey::Pillar smooth = *document.pillar(before.id);
   QVERIFY(std::abs(smooth.nodes[3].position.x - after.nodes[3].position.x) < 21);
   QCOMPARE(smooth.nodes[0].position.x, after.nodes[0].position.x);
+}
+
+void FaultCommandsTest::resamples_by_metres() {
+  const SampleProject sample;
+  Document document(sample.open());
+  document.store().set_setting("velocity", "3000");
+  const survey::Pillar before = document.faults()[0].pillars[0];
+  // As a time survey: half the velocity makes metres of milliseconds.
+  const auto metres = [&](const survey::WorldPoint& a, const survey::WorldPoint& b) {
+    return std::hypot(a.x - b.x, a.y - b.y, (a.z - b.z) * 1.5);
+  };
+  double length = 0;
+  for (std::size_t n = 1; n < before.nodes.size(); ++n)
+    length += metres(before.nodes[n - 1].position, before.nodes[n].position);
+  QVERIFY(resample_by_spacing(document, {before.id}, length / 6.2));
+  const survey::Pillar after = *document.pillar(before.id);
+  QCOMPARE(after.nodes.size(), std::size_t{7});
+  QCOMPARE(after.nodes.front().position, before.nodes.front().position);
+  QCOMPARE(after.nodes.back().position, before.nodes.back().position);
+  for (std::size_t n = 1; n < after.nodes.size(); ++n) {
+    QVERIFY(metres(after.nodes[n - 1].position, after.nodes[n].position) <= length / 6 + 1e-6);
+  }
+  // Longer than the pillar: its ends stay.
+  QVERIFY(resample_by_spacing(document, {before.id}, 1e6));
+  QCOMPARE(document.pillar(before.id)->nodes.size(), std::size_t{2});
+  QVERIFY(!resample_by_spacing(document, {before.id}, 0));
 }
 
 void FaultCommandsTest::turns_and_scales_about_the_middle() {

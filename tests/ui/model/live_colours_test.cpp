@@ -7,8 +7,11 @@
 
 #include "engine/service/client/engine_client.h"
 #include "engine/tasks/extract_run.h"
+#include "ui/model/accept_shift.h"
 #include "ui/model/engine_link.h"
+#include "ui/model/fault_commands.h"
 #include "ui/model/surfaces.h"
+#include "ui/model/tour.h"
 #include "ui/sample_project.h"
 #include "ui/test_class.h"
 
@@ -40,6 +43,7 @@ class LiveColoursTest final : public QObject {
   void a_picture_asked_for_before_the_engine_runs_comes();
   void surfaces_are_made_without_an_engine();
   void numbers_are_those_of_a_run();
+  void offsets_come_when_the_hand_rests();
   void colours_follow_a_hand_and_go_on_after_a_death();
   void a_live_run_is_there_again_when_opened();
 };
@@ -130,6 +134,65 @@ void LiveColoursTest::numbers_are_those_of_a_run() {
       }
     }
   }
+}
+
+void LiveColoursTest::offsets_come_when_the_hand_rests() {
+  const SampleProject sample;
+  Coloured desk(sample, 2);
+  Document& document = desk.document;
+  Surfaces& surfaces = desk.surfaces;
+  const Id fault = desk.fault();
+  const auto fresh = [&](Id id) { return surfaces.freshness(id, "offset_voxels") == Freshness::kFresh; };
+  const auto all_fresh = [&] {
+    return std::ranges::all_of(document.faults(), [&](const Fault& one) { return fresh(one.record.id); });
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(desk.is_fresh() && all_fresh(), kPatience);
+  // 1. They are those of a run.
+  tasks::ExtractOptions options;
+  options.engine.compute = {"offset"};
+  const tasks::Extracted run = tasks::extract_run(document.store(), options, {});
+  for (const Fault& one : document.faults()) {
+    const project::FaultRun expected = document.project().fault_statistics(run.run, one.record.id);
+    for (const char* name : {"offset_voxels", "offset_score"}) {
+      const std::vector<double>& values = expected.statistics.at(name);
+      const auto numbers = surfaces.numbers(one.record.id, name);
+      QVERIFY(numbers != nullptr);
+      QCOMPARE(numbers->values.size(), values.size());
+      for (std::size_t f = 0; f < values.size(); ++f) {
+        QVERIFY(values[f] == numbers->values[f] || (std::isnan(values[f]) && std::isnan(numbers->values[f])));
+      }
+    }
+  }
+  // 2. Under a hand those of moved faces are old, and say so; others of the fault are as they were.
+  std::vector<survey::Pillar> pillars = document.faults()[0].pillars;
+  pillars[0].nodes[0].position.x += 60;
+  document.show_provisionally(fault, pillars);
+  const auto is_half_stale = [&] {
+    const auto numbers = surfaces.numbers(fault, "offset_voxels");
+    return surfaces.is_settled() && numbers != nullptr && std::ranges::count(numbers->stale, 1) > 0;
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(is_half_stale(), kPatience);
+  QCOMPARE(surfaces.freshness(fault, "offset_voxels"), Freshness::kFollowing);
+  document.end_provisional();
+  QTRY_VERIFY_WITH_TIMEOUT(desk.is_fresh() && all_fresh(), kPatience);
+  // 3. A face is moved to where its offset says: one step of the history, and its new offset is known soon.
+  const auto surface = surfaces.surface(fault);
+  const auto stops = farthest_faces(*surface, *surfaces.numbers(fault, "offset_voxels"));
+  QVERIFY(!stops.empty());
+  Selection selection(document);
+  selection.select(stops[0].face);
+  QVERIFY(shift_hint(document, surfaces, selection).contains("Enter moves this face by"));
+  const std::size_t steps = document.history().size();
+  lock_faults(document, {fault}, true);
+  QSignalSpy failed(&document, &Document::failed);
+  QVERIFY(!accept_shift(document, surfaces, selection));
+  QVERIFY(failed.takeLast()[0].toString().contains("locked"));
+  lock_faults(document, {fault}, false);
+  QTRY_VERIFY_WITH_TIMEOUT(desk.is_fresh() && all_fresh(), kPatience);
+  QVERIFY(accept_shift(document, surfaces, selection));
+  QCOMPARE(document.history().size(), steps + 3);
+  QVERIFY(QString::fromStdString(document.history().back().name).startsWith("Accept shift"));
+  QTRY_VERIFY_WITH_TIMEOUT(desk.is_fresh() && all_fresh(), kPatience);
 }
 
 void LiveColoursTest::colours_follow_a_hand_and_go_on_after_a_death() {

@@ -86,6 +86,7 @@ class PickingTest final : public QObject {
   void a_click_beside_another_fault_stays_with_the_active_one();
   void undo_while_the_button_is_down_is_survived();
   void the_hint_says_what_the_click_does();
+  void snaps_to_samples_where_that_is_wanted();
 };
 
 void PickingTest::clicks_make_a_pillar_and_a_double_click_ends_it() {
@@ -315,6 +316,19 @@ void PickingTest::the_hint_says_what_the_click_does() {
   QCOMPARE(desk.picking.shape(), PointerShape::kMoveNode);
   desk.picking.leave();
   QCOMPARE(desk.picking.hint(), QString());
+}
+
+void PickingTest::snaps_to_samples_where_that_is_wanted() {
+  Desk desk;
+  desk.click(5.3, 3.6);
+  QVERIFY(std::abs(desk.place(0, 0).j - 5.3) < 1e-6 && std::abs(desk.place(0, 0).k - 3.6) < 1e-6);
+  desk.display.set_snapping(true, true);
+  desk.click(6.4, 20.7);
+  QVERIFY(std::abs(desk.place(0, 1).j - 6) < 1e-6 && std::abs(desk.place(0, 1).k - 21) < 1e-6);
+  // Both are kept with the project.
+  Display other(desk.document);
+  other.from_json(desk.display.to_json());
+  QVERIFY(other.snaps_to_section() && other.snaps_to_samples());
 }
 
 static const RegisterTest<PickingTest> kRegistered;

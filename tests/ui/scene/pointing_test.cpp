@@ -1,7 +1,10 @@
+#include <QKeyEvent>
+#include <QMouseEvent>
 #include <QSignalSpy>
 #include <QTest>
 #include <QWheelEvent>
 
+#include "ui/model/fault_commands.h"
 #include "ui/scene/made_scene.h"
 #include "ui/test_class.h"
 
@@ -16,6 +19,25 @@ void turn_wheel(QWidget* view, const QPointF& at, int notches) {
   QCoreApplication::sendEvent(view, &event);
 }
 
+// With the button down all the way; modifiers are held throughout.
+void drag(QWidget* view, Qt::MouseButton button, const std::vector<QPoint>& path,
+          Qt::KeyboardModifiers modifiers = {}) {
+  QTest::mousePress(view, button, modifiers, path.front());
+  for (const QPoint& at : path) {
+    QMouseEvent move(QEvent::MouseMove, at, view->mapToGlobal(at), Qt::NoButton, button, modifiers);
+    QApplication::sendEvent(view, &move);
+  }
+  QTest::mouseRelease(view, button, modifiers, path.back());
+}
+
+// The pixels of a pillar's nodes, and some around.
+QRect around(const MadeScene& scene, const survey::Pillar& pillar) {
+  QPolygonF pixels;
+  for (const survey::PillarNode& node : pillar.nodes)
+    pixels << *scene.view->pixel_of(scene.bench.document.survey()->index_of(node.position));
+  return pixels.boundingRect().toAlignedRect().adjusted(-4, -4, 4, 4);
+}
+
 }  // namespace
 
 class PointingTest final : public QObject {
@@ -28,6 +50,9 @@ class PointingTest final : public QObject {
   void wheel_zooms_at_the_mouse();
   void small_moves_turn_nothing();
   void keys_work();
+  void selects_by_box_and_lasso();
+  void a_lasso_assigns_pillars_in_one_step();
+  void presets_say_what_the_mouse_does();
 };
 
 void PointingTest::finds_faces_pillars_and_nodes() {
@@ -162,6 +187,153 @@ void PointingTest::keys_work() {
   QVERIFY(scene.bench.display.faces().edges);
   QVERIFY(scene.settle());
   QVERIFY(scene.grabbed("edges") != plain);
+  // The window's actions send these two here: they must not come back to the window.
+  for (const Qt::Key key : {Qt::Key_F, Qt::Key_Home}) {
+    QKeyEvent asked(QEvent::ShortcutOverride, key, Qt::NoModifier);
+    asked.ignore();
+    QCoreApplication::sendEvent(scene.view.get(), &asked);
+    QVERIFY(asked.isAccepted());
+  }
+}
+
+void PointingTest::selects_by_box_and_lasso() {
+  MadeScene scene;
+  const Id fault = scene.first_fault();
+  for (const Fault& other : scene.bench.document.faults()) {
+    const Id id = other.record.id;
+    scene.bench.display.set_visible({.kind = Item::Kind::kFault, .id = id}, id == fault);
+  }
+  QVERIFY(scene.settle());
+  Selection& selection = scene.bench.selection;
+  const std::vector<survey::Pillar>& pillars = scene.bench.document.fault(fault)->pillars;
+  // 1. All of a fault: the fault. Hidden ones are left out.
+  drag(scene.view.get(), Qt::LeftButton, {{1, 1}, {400, 300}, {898, 698}});
+  QCOMPARE(selection.faults(), std::set<Id>{fault});
+  QVERIFY(selection.pillars().empty() && selection.nodes().empty());
+  // 2. All of a pillar: the pillar.
+  const QRect box = around(scene, pillars.front());
+  drag(scene.view.get(), Qt::LeftButton, {box.topLeft(), box.center(), box.bottomRight()});
+  QVERIFY(selection.faults().empty());
+  QVERIFY(selection.pillars().contains(pillars.front().id));
+  QVERIFY(selection.pillars().size() < pillars.size());
+  // 3. Ctrl adds; a lasso around one node of another pillar, one that is seen, has that node.
+  const std::set<Id> before = selection.pillars();
+  std::set<Id> nodes = selection.nodes();  // of neighbours that reach into the box
+  QPoint node;
+  Id wanted = 0;
+  scene.bench.selection.set_active_fault(fault);
+  const auto pixel_of = [&](const survey::PillarNode& one) {
+    return *scene.view->pixel_of(scene.bench.document.survey()->index_of(one.position));
+  };
+  const auto stands_alone = [&](const QPointF& at) {
+    int near = 0;
+    for (const survey::Pillar& pillar : pillars) {
+      for (const auto& one : pillar.nodes) near += QLineF(pixel_of(one), at).length() < 16 ? 1 : 0;
+    }
+    return near == 1;
+  };
+  for (const survey::Pillar& pillar : pillars) {
+    if (before.contains(pillar.id)) continue;
+    for (const auto& one : pillar.nodes) {
+      const QPointF at = pixel_of(one);
+      const Item item{.kind = Item::Kind::kNode, .id = one.id};
+      if (nodes.contains(one.id) || !stands_alone(at) || scene.view->under(at).item != item) continue;
+      if (scene.view->under(at.toPoint() - QPoint(9, 9)).on_frame) continue;  // where a drag moves a plane
+      node = at.toPoint();
+      wanted = one.id;
+    }
+  }
+  QVERIFY(wanted != 0);
+  const auto ring = [&](Qt::KeyboardModifiers modifiers) {
+    drag(scene.view.get(), Qt::LeftButton,
+         {node + QPoint(-9, -9), node + QPoint(9, -9), node + QPoint(9, 9), node + QPoint(-9, 9)}, modifiers);
+  };
+  ring(Qt::ShiftModifier | Qt::ControlModifier);
+  QCOMPARE(selection.pillars(), before);
+  nodes.insert(wanted);
+  QCOMPARE(selection.nodes(), nodes);
+  // 4. Esc while it is drawn leaves all as it was; a box around nothing selects nothing.
+  QTest::mousePress(scene.view.get(), Qt::LeftButton, {}, {2, 2});
+  QTest::mouseMove(scene.view.get(), {300, 300});
+  QTest::keyClick(scene.view.get(), Qt::Key_Escape);
+  QTest::mouseRelease(scene.view.get(), Qt::LeftButton, {}, {898, 698});
+  QCOMPARE(selection.pillars(), before);
+  drag(scene.view.get(), Qt::LeftButton, {{2, 2}, {10, 10}, {20, 20}});
+  QVERIFY(selection.pillars().empty() && selection.nodes().empty());
+  // 5. Behind a plane nothing is seen, so nothing is selected.
+  for (const Display::ShownSection& shown : std::vector(scene.bench.display.sections()))
+    scene.bench.display.remove_section(shown.id);
+  scene.view->look(StandardView::kTop);
+  scene.bench.display.add_section({.kind = Section::Kind::kSlice, .index = 0});
+  QVERIFY(scene.settle());
+  std::set<Id> deep;
+  for (const survey::Pillar& pillar : pillars) {
+    for (const auto& one : pillar.nodes) {
+      if (scene.bench.document.survey()->index_of(one.position).k > 3) deep.insert(one.id);
+    }
+  }
+  QVERIFY(!deep.empty());
+  drag(scene.view.get(), Qt::LeftButton, {{1, 1}, {400, 300}, {898, 698}});
+  for (const Id hidden : selection.nodes()) QVERIFY(!deep.contains(hidden));
+}
+
+void PointingTest::a_lasso_assigns_pillars_in_one_step() {
+  MadeScene scene;
+  Document& document = scene.bench.document;
+  const survey::Geometry survey = *document.survey();
+  std::set<Id> loose;
+  document.edit("Pick", [&](project::Interpretation& now) {
+    const Id unassigned = now.add_fault(kUnassigned);
+    for (const double j : {30.0, 34.0}) {
+      const std::array nodes{survey.world_of({44, j, 6}), survey.world_of({44, j + 1, 30})};
+      loose.insert(now.add_pillar(unassigned, survey::PillarKind::kInterpreted, nodes).id);
+    }
+  });
+  for (const Fault& fault : document.faults()) {
+    if (!is_unassigned(fault))
+      scene.bench.display.set_visible({.kind = Item::Kind::kFault, .id = fault.record.id}, false);
+  }
+  scene.bench.display.remove_section(scene.inline_plane);
+  QVERIFY(scene.settle());
+  QRect box;
+  for (const Id id : loose) box = box.united(around(scene, *document.pillar(id)));
+  drag(scene.view.get(), Qt::LeftButton,
+       {box.topLeft(), box.topRight(), box.bottomRight(), box.bottomLeft(), box.topLeft() + QPoint(0, 1)},
+       Qt::ShiftModifier);
+  QCOMPARE(scene.bench.selection.pillars(), loose);
+  const std::size_t steps = document.history().size();
+  const Id made = split_fault(document, scene.bench.selection.pillars());
+  QVERIFY(made != 0);
+  QCOMPARE(document.history().size(), steps + 1);
+  QCOMPARE(document.fault(made)->pillars.size(), std::size_t{2});
+}
+
+void PointingTest::presets_say_what_the_mouse_does() {
+  MadeScene scene;
+  QVERIFY(scene.settle());
+  const QString home = scene.view->camera_text();
+  const auto dragged = [&](Qt::MouseButton button, Qt::KeyboardModifiers modifiers = {}) {
+    scene.view->set_camera_text(home);
+    const double azimuth = scene.view->camera().azimuth();
+    const double scale = scene.view->camera().metres_per_pixel({900, 700});
+    drag(scene.view.get(), button, {{450, 350}, {480, 380}, {510, 400}}, modifiers);
+    if (std::abs(scene.view->camera().azimuth() - azimuth) > 1) return MouseAction::kOrbit;
+    if (scene.view->camera_text() == home) return MouseAction::kNone;
+    const double now = scene.view->camera().metres_per_pixel({900, 700});
+    return std::abs(now - scale) < 1e-9 * scale ? MouseAction::kPan : MouseAction::kZoom;
+  };
+  QCOMPARE(dragged(Qt::MiddleButton), MouseAction::kOrbit);
+  QCOMPARE(dragged(Qt::MiddleButton, Qt::ShiftModifier), MouseAction::kPan);
+  QCOMPARE(dragged(Qt::RightButton), MouseAction::kNone);
+  for (const MousePreset& preset : mouse_presets()) {
+    scene.bench.mouse.choose(QLatin1String(preset.name));
+    for (const DragBinding& one : preset.scene) {
+      QVERIFY2(dragged(one.button, one.modifiers) == one.action, preset.name);
+    }
+    QCOMPARE(dragged(Qt::LeftButton), MouseAction::kNone);
+    QCOMPARE(dragged(Qt::LeftButton, Qt::AltModifier), MouseAction::kOrbit);
+  }
+  scene.bench.mouse.choose(QStringLiteral("Footwall"));
 }
 
 static const RegisterTest<PointingTest> kRegistered;

@@ -114,12 +114,25 @@ void SpeedTest::a_mouse_move_draws_what_moves() {
   }
   QVERIFY(hits > 50);
   const double pick_ms = static_cast<double>(clock.nsecsElapsed()) / 1e9;
+  // A box over a half of all.
+  QTest::mousePress(scene.view.get(), Qt::LeftButton, {}, QPoint(3, 3));
+  QTest::mouseMove(scene.view.get(), QPoint(300, 300));
+  QTest::mouseMove(scene.view.get(), QPoint(450, 690));
+  clock.restart();
+  cpu_ms();
+  QTest::mouseRelease(scene.view.get(), Qt::LeftButton, {}, QPoint(450, 690));
+  const double box_ms = static_cast<double>(clock.nsecsElapsed()) / 1e6;
+  const double box_cpu = cpu_ms();
+  const Selection& selection = scene.bench.selection;
+  QVERIFY(!selection.faults().empty() || !selection.pillars().empty() || !selection.nodes().empty());
   std::ranges::sort(drags);
   std::ranges::sort(turns);
   qInfo("%zu triangles: drag frame median %.1f ms, longest %.1f; coarse frame median %.1f ms, longest %.1f",
         triangles, drags[drags.size() / 2], drags.back(), turns[turns.size() / 2], turns.back());
   qInfo("processor time of all threads: a drag with its surface made %.1f ms, a coarse frame %.1f ms",
         drag_cpu, turn_cpu);
+  qInfo("a box: %zu faults, %zu pillars, %zu nodes in %.1f ms, %.1f ms of processor time",
+        selection.faults().size(), selection.pillars().size(), selection.nodes().size(), box_ms, box_cpu);
   qInfo("whole again after %lld ms, longest slice %.1f ms; what is under a pixel %.2f ms", settled,
         counters.longest_slice_ms, pick_ms);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/tasks/new_project.h"
+#include "ui/model/fault_commands.h"
 #include "ui/model/sample_colours.h"
 #include "ui/sample_project.h"
 #include "ui/test_class.h"
@@ -90,6 +91,8 @@ class SectionViewTest final : public QObject {
   void keys_step_and_jump();
   void the_slider_steps();
   void zoom_keeps_what_is_under_the_mouse();
+  void presets_say_what_the_mouse_does();
+  void steps_on_after_a_pillar();
   void space_and_middle_button_pan();
   void cursors_are_linked();
   void moves_of_the_mouse_draw_no_layer();
@@ -142,14 +145,18 @@ void SectionViewTest::keys_step_and_jump() {
   QCOMPARE(index(), 19);
   open.key(Qt::Key_PageDown);
   QCOMPARE(index(), 29);
-  open.bench.display.set_step(4);
+  open.bench.display.set_own_step(4);
   open.key(Qt::Key_Z);
   QCOMPARE(index(), 25);
   open.key(Qt::Key_PageUp);
   QCOMPARE(index(), 0);
   QTRY_VERIFY(open.has_its_samples());
-  open.bench.display.set_step(1);
   open.bench.picking.set_tool(Tool::kPick);
+  open.bench.display.set_own_step(1);  // the user's own holds while picking, too
+  open.key(Qt::Key_X);
+  open.key(Qt::Key_Z);
+  QCOMPARE(index(), 0);
+  open.bench.display.set_own_step(std::nullopt);
   open.key(Qt::Key_X);
   QCOMPARE(index(), 10);
   open.key(Qt::Key_X, Qt::ShiftModifier);
@@ -226,6 +233,63 @@ void SectionViewTest::space_and_middle_button_pan() {
   QTest::keyRelease(&canvas, Qt::Key_Space);
   QVERIFY(std::abs(canvas.view().to_plane(QPointF(460, 330)).u - under.u) < 1e-9);
   QVERIFY(!open.bench.selection.current());
+}
+
+void SectionViewTest::presets_say_what_the_mouse_does() {
+  const SampleProject sample;
+  OpenView open(sample);
+  SectionCanvas& canvas = open.canvas();
+  const QPoint middle = open.at(20, 30);
+  const auto drag = [&](Qt::MouseButton button, const QPoint& by) {
+    QTest::mousePress(&canvas, button, {}, middle);
+    QTest::mouseMove(&canvas, middle + by / 2);
+    QTest::mouseMove(&canvas, middle + by);
+    QTest::mouseRelease(&canvas, button, {}, middle + by);
+  };
+  const double scale = canvas.view().pixels_per_u();
+  const auto index = [&] { return canvas.section().index; };
+  drag(Qt::RightButton, {0, -60});
+  QCOMPARE(canvas.view().pixels_per_u(), scale);  // bound to nothing at first
+  open.bench.mouse.choose(QStringLiteral("Landmark"));
+  drag(Qt::RightButton, {0, -60});
+  QVERIFY(canvas.view().pixels_per_u() > 1.5 * scale);
+  const std::int64_t before = index();
+  open.wheel(middle);
+  QCOMPARE(index(), before + 1);
+  const double zoomed = canvas.view().pixels_per_u();
+  open.wheel(middle, Qt::ControlModifier);
+  QCOMPARE(index(), before + 1);
+  QVERIFY(canvas.view().pixels_per_u() > zoomed);
+  open.bench.mouse.choose(QStringLiteral("Petrel-like"));
+  const QPoint place = open.at(20, 30);
+  drag(Qt::RightButton, {40, 20});
+  const QPoint off = open.at(20, 30) - place - QPoint(40, 20);
+  QVERIFY(std::abs(off.x()) <= 1 && std::abs(off.y()) <= 1);
+  open.bench.mouse.choose(QStringLiteral("Footwall"));
+  open.wheel(middle);
+  QCOMPARE(index(), before + 1);
+}
+
+void SectionViewTest::steps_on_after_a_pillar() {
+  const SampleProject sample;
+  OpenView open(sample);
+  open.bench.picking.set_tool(Tool::kPick);
+  const auto index = [&] { return open.canvas().section().index; };
+  const std::int64_t before = index();
+  const auto pick = [&](double from) {
+    QTest::mouseClick(&open.canvas(), Qt::LeftButton, {}, open.at(30, from));
+    QTest::mouseClick(&open.canvas(), Qt::LeftButton, {}, open.at(31, from + 15));
+    open.key(Qt::Key_Return);
+  };
+  pick(10);
+  QCOMPARE(index(), before);
+  open.bench.display.set_steps_after_pillar(true);
+  pick(40);
+  QCOMPARE(index(), before + 10);
+  open.bench.display.set_own_step(3);
+  QTRY_VERIFY(open.has_its_samples());
+  pick(10);
+  QCOMPARE(index(), before + 13);
 }
 
 void SectionViewTest::cursors_are_linked() {
@@ -377,6 +441,21 @@ void SectionViewTest::selects_by_click_box_and_lasso() {
   drag({open.at(6, 6), open.at(14, 6), open.at(12, 30), open.at(24, 46), open.at(24, 54), open.at(8, 54)},
        Qt::ShiftModifier);
   QCOMPARE(selection.nodes(), (std::set<Id>{pillar.nodes[0].id, pillar.nodes[2].id}));
+  // A lasso around a whole pillar, and it belongs to another fault in one step.
+  const std::vector<QPoint> ring{open.at(5, 5), open.at(25, 5), open.at(25, 55), open.at(5, 55),
+                                 open.at(4, 6)};
+  drag(ring, Qt::ShiftModifier);
+  QCOMPARE(selection.pillars(), std::set<Id>{picked.on_section});
+  const std::size_t steps = open.bench.document.history().size();
+  QVERIFY(assign_pillars(open.bench.document, selection.pillars(), picked.other_fault));
+  QCOMPARE(open.bench.document.fault_of_pillar(picked.on_section)->record.id, picked.other_fault);
+  QCOMPARE(open.bench.document.history().size(), steps + 1);
+  // Esc while it is drawn leaves all as it was.
+  QTest::mousePress(&canvas, Qt::LeftButton, {}, open.at(5, 5));
+  QTest::mouseMove(&canvas, open.at(25, 55));
+  open.key(Qt::Key_Escape);
+  QTest::mouseRelease(&canvas, Qt::LeftButton, {}, open.at(33, 55));
+  QCOMPARE(selection.pillars(), std::set<Id>{picked.on_section});
   // Less than 4 px is a click.
   drag({open.at(33, 55), open.at(33, 55) + QPoint(2, 2)}, {});
   QVERIFY(selection.nodes().empty());

@@ -1,7 +1,9 @@
 #include "ui/window/actions.h"
 
+#include <QDockWidget>
 #include <QFile>
 #include <QMenuBar>
+#include <QSignalSpy>
 #include <QTest>
 #include <algorithm>
 #include <map>
@@ -26,6 +28,7 @@ class ActionsTest final : public QObject {
   void mnemonics_of_a_menu_differ();
   void without_a_project_only_what_needs_none_is_enabled();
   void shortcuts_do_what_the_menu_does();
+  void enter_accepts_a_shift_over_the_views_alone();
   void icons_follow_the_theme();
   void help_lists_every_action();
   void the_guide_has_every_action_with_its_keys();
@@ -35,7 +38,11 @@ void ActionsTest::every_action_has_name_icon_shortcut_tip_and_a_place_in_a_menu(
   MainWindow window({});
   std::set<QAction*> in_menus;
   for (const QAction* top : window.menuBar()->actions()) {
-    for (QAction* action : top->menu()->actions()) in_menus.insert(action);
+    for (QAction* action : top->menu()->actions()) {
+      in_menus.insert(action);
+      if (action->menu() == nullptr) continue;
+      for (QAction* below : action->menu()->actions()) in_menus.insert(below);
+    }
   }
   QVERIFY(window.actions().table().size() > 50);
   for (const ActionRow& row : window.actions().table()) {
@@ -109,6 +116,12 @@ void ActionsTest::shortcuts_do_what_the_menu_does() {
   QVERIFY(!display.perspective());
   QTest::keyClick(&window, Qt::Key_C);
   QCOMPARE(display.faces().statistic, QStringLiteral("contrast"));
+  // A time survey: without a velocity there are no metres.
+  QTest::keyClick(&window, Qt::Key_B);
+  QCOMPARE(display.faces().statistic, QStringLiteral("offset_voxels"));
+  window.workbench()->document.store().set_setting("velocity", "2400");
+  QTest::keyClick(&window, Qt::Key_B);
+  QCOMPARE(display.faces().statistic, QStringLiteral("offset"));
   QTest::keyClick(&window, Qt::Key_E);
   QVERIFY(display.faces().edges);
   const std::size_t sections = display.sections().size();
@@ -117,7 +130,7 @@ void ActionsTest::shortcuts_do_what_the_menu_does() {
   QCOMPARE(window.views()->active_section(), display.sections().back().id);
   const std::int64_t before = display.sections().back().section.index;
   QTest::keyClick(&window, Qt::Key_X);
-  QCOMPARE(display.sections().back().section.index, before + display.step());
+  QCOMPARE(display.sections().back().section.index, before + 1);
   QTest::keyClick(&window, Qt::Key_Z);
   QCOMPARE(display.sections().back().section.index, before);
   QTest::keyClick(&window, Qt::Key_P);
@@ -131,6 +144,43 @@ void ActionsTest::shortcuts_do_what_the_menu_does() {
   QCOMPARE(window.workbench()->document.faults().size(), 0U);
   QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
   QCOMPARE(window.workbench()->document.faults().size(), faults);
+}
+
+void ActionsTest::enter_accepts_a_shift_over_the_views_alone() {
+  const SampleProject sample;
+  MainWindow window({});
+  window.resize(1200, 800);
+  window.show();
+  QApplication::setActiveWindow(&window);  // there is no window manager that would
+  QTRY_VERIFY(window.isActiveWindow());
+  QVERIFY(window.open_project(QString::fromStdString(sample.path().string())));
+  Workbench& bench = *window.workbench();
+  const QAction* accept = window.actions().action(QStringLiteral("fault.accept-shift"));
+  QSignalSpy triggered(accept, &QAction::triggered);
+  QSignalSpy failed(&bench.document, &Document::failed);
+  QVERIFY(!accept->isEnabled());
+  const Fault& fault = bench.document.faults().front();
+  const std::size_t steps = bench.document.history().size();
+  bench.selection.select({.kind = Item::Kind::kPillar, .id = fault.pillars[0].id});
+  QVERIFY(accept->isEnabled());
+  // Without an engine nothing is known: it says so, and changes nothing.
+  QTest::keyClick(&window, Qt::Key_Return);
+  QCOMPARE(triggered.size(), 1);
+  QCOMPARE(failed.size(), 1);
+  QCOMPARE(bench.document.history().size(), steps);
+  // While picking Enter ends a pillar.
+  bench.picking.set_tool(Tool::kPick);
+  QVERIFY(!accept->isEnabled());
+  QTest::keyClick(&window, Qt::Key_Return);
+  QCOMPARE(triggered.size(), 1);
+  bench.picking.set_tool(Tool::kSelect);
+  // In a panel it belongs to the panel.
+  window.docks().open(Panel::kHistory, true);
+  QWidget* list = window.docks().dock(Panel::kHistory)->widget();
+  list->setFocus();
+  QTRY_VERIFY(window.focusWidget() != nullptr && !window.views()->isAncestorOf(window.focusWidget()));
+  QTest::keyClick(window.focusWidget(), Qt::Key_Return);
+  QCOMPARE(triggered.size(), 1);
 }
 
 void ActionsTest::icons_follow_the_theme() {

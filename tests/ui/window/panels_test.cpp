@@ -25,6 +25,7 @@ class PanelsTest final : public QObject {
   void a_job_is_shown_and_cancelled();
   void area_and_dip_of_a_known_plane();
   void the_tour_goes_from_the_lowest_contrast_up();
+  void the_tour_of_offsets_goes_from_the_farthest_down();
 };
 
 void PanelsTest::bins_count_every_finite_value_once() {
@@ -135,6 +136,23 @@ void PanelsTest::the_tour_goes_from_the_lowest_contrast_up() {
   QVERIFY(next_stop(stops, stops[0].face) == &stops[1]);
   QVERIFY(next_stop(stops, stops[2].face) == &stops[0]);
   QVERIFY(next_stop({}, stops[0].face) == nullptr);
+  QVERIFY(next_stop(stops, stops[1].face, -1) == &stops[0]);
+  QVERIFY(next_stop(stops, stops[0].face, -1) == &stops[2]);
+  QVERIFY(next_stop(stops, {}, -1) == &stops[2]);
+}
+
+void PanelsTest::the_tour_of_offsets_goes_from_the_farthest_down() {
+  FaultSurface surface;
+  surface.fault = 7;
+  surface.places = {{0, 0, 0}, {3, 0, 0}, {0, 3, 3}};
+  for (int n = 0; n < 6; ++n) surface.faces.push_back({.panel = 1, .n = n, .vertices = {0, 1, 2}});
+  const FaceNumbers offset{
+      .values = {2, -5, NAN, 8, 0, 3}, .stale = {0, 0, 0, 1, 0, 0}, .hatched = {0, 0, 0, 0, 0, 0}};
+  const auto stops = farthest_faces(surface, offset);
+  QCOMPARE(stops.size(), 3U);
+  QCOMPARE(stops[0].value, -5.0);
+  QCOMPARE(stops[1].value, 3.0);
+  QCOMPARE(stops[2].face.number, 0);
 }
 
 static const RegisterTest<PanelsTest> kRegistered;
