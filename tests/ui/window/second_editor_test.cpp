@@ -1,5 +1,5 @@
-// A window on a project that another process edits: it says who holds it, changes nothing, follows what is done there, and
-// takes over once the other is gone.
+// A window on a project that another process edits: it says who holds it, changes nothing, follows what is
+// done there, and takes over once the other is gone.
 #include <QProcess>
 #include <QTest>
 
@@ -44,7 +44,8 @@ void SecondEditorTest::follows_another_process_and_takes_over() {
   // Each line it says is one finished gesture.
   const auto hear = [&](int gestures) {
     int heard = 0;
-    while (heard < gestures && other.waitForReadyRead(kPatience)) heard += static_cast<int>(other.readAll().count('\n'));
+    while (heard < gestures && other.waitForReadyRead(kPatience))
+      heard += static_cast<int>(other.readAll().count('\n'));
     return heard >= gestures;
   };
   QVERIFY(hear(3));
@@ -77,7 +78,8 @@ void SecondEditorTest::follows_another_process_and_takes_over() {
   QVERIFY(window.banners().press(banner, 0));
   QVERIFY(!window.workbench()->document.read_only());
   QVERIFY(!window.banners().has(banner));
-  // The gesture that was being committed may be there now, too: an edit, or a step back or forth in the history.
+  // The gesture that was being committed may be there now, too: an edit, or a step back or forth in the
+  // history.
   Document& taken = window.workbench()->document;
   const auto is_as_left = [&] { return interpretation_text(sample.path()) == left; };
   QVERIFY(is_as_left() || (taken.undo() && is_as_left()) || (taken.redo() && taken.redo() && is_as_left()));
