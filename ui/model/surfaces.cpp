@@ -29,6 +29,14 @@ std::optional<double> velocity_of(const project::Project& project) {
 
 constexpr std::array kOffsets{"offset", "offset_voxels", "offset_score"};
 
+constexpr double kSignedPercentile = 98;  // of |value|
+
+bool diverges(const std::string& colour_map) {
+  const auto all = render::ColourMap::all();
+  const auto found = std::ranges::find(all, std::string_view(colour_map), &render::ColourMap::name);
+  return found != all.end() && found->kind() == render::ColourMapKind::kDiverging;
+}
+
 pillars::Options options_of(const project::MeshRecord& mesh) {
   pillars::Options options;
   const auto json = nlohmann::json::parse(mesh.parameters, nullptr, false);
@@ -404,7 +412,13 @@ std::optional<std::pair<double, double>> Surfaces::range(const std::set<Id>& fau
       if (known->stale[f] == 0 && std::isfinite(known->values[f])) values.push_back(known->values[f]);
     }
   }
-  const std::optional<render::Range> range = render::percentile_range(values);
+  const auto record =
+      std::ranges::find(state_->statistics, statistic.toStdString(), &project::StatisticRecord::name);
+  const bool is_signed = record != state_->statistics.end() && diverges(record->colour_map);
+  // As pictures have them: zero in the middle of what has a sign.
+  const std::optional<render::Range> range =
+      is_signed ? render::symmetric_range(std::vector<float>(values.begin(), values.end()), kSignedPercentile)
+                : render::percentile_range(values);
   kept = {faults, statistic, range ? std::optional(std::pair(range->lo, range->hi)) : std::nullopt};
   return kept->range;
 }

@@ -63,7 +63,8 @@ class Surfaces final : public QObject {
   Freshness freshness(Id fault, const QString& statistic) const;
   // Names, ranges and colour maps, as the project registers them.
   const std::vector<project::StatisticRecord>& statistics() const;
-  // 2nd to 98th percentile over all faults given, of values that are not stale; nothing where there are none.
+  // 2nd to 98th percentile over all faults given, of values that are not stale; of a statistic with a sign (a
+  // diverging colour map) the 98th of |value| and its opposite. Nothing where there are none.
   std::optional<std::pair<double, double>> range(const std::set<Id>& faults, const QString& statistic) const;
 
   // Detail of a fault's triangulation, kept with its mesh. The surface is made anew.

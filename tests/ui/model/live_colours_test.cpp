@@ -163,6 +163,8 @@ void LiveColoursTest::offsets_come_when_the_hand_rests() {
       }
     }
   }
+  const auto range = surfaces.range({fault}, "offset_voxels");
+  QVERIFY(range.has_value() && range->first == -range->second && range->second > 0);  // zero in the middle
   // 2. Under a hand those of moved faces are old, and say so; others of the fault are as they were.
   std::vector<survey::Pillar> pillars = document.faults()[0].pillars;
   pillars[0].nodes[0].position.x += 60;
