@@ -36,6 +36,9 @@ class UndoLog {
   std::optional<std::string> undo();
   std::optional<std::string> redo();
   std::vector<HistoryStep> steps() const;
+  // See Project::history_size() and trim_history().
+  HistorySize size(const std::optional<std::string>& before) const;
+  HistorySize trim(const std::string& before);
 
  private:
   void check(const Bytes& changeset) const;
