@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <unordered_map>
 #include <vector>
 
 #include "storage/base/error.h"
@@ -41,6 +42,9 @@ class Document final : public QObject {
   project::Project& store() { return project_; }
   bool read_only() const { return project_.read_only(); }
   const std::optional<survey::Geometry>& survey() const { return survey_; }
+  // Of the survey, in m/s, for metres in a time survey; nothing where it is not known.
+  const std::optional<double>& velocity() const { return velocity_; }
+  void set_velocity(double velocity);
 
   const std::vector<Fault>& faults() const { return faults_; }  // in the order they were made
   const Fault* fault(Id fault) const;                           // null where there is none
@@ -67,8 +71,12 @@ class Document final : public QObject {
   // To the state after the step of this number (0: before the first), by as many undos or redos as it takes.
   bool go_to_step(Id step);
 
-  // Reads again what others may have changed: for a project that somebody else writes.
-  void refresh();
+  // Reads again what others may have changed: for a project that somebody else writes, or a job of this program
+  // beside(). already: faults that were read on the way, by id; they are not read a second time where they are the
+  // stored ones still.
+  void refresh(std::map<Id, Fault> already = {});
+  // The same of the interpretation and its history alone: after an edit that was made in store().
+  void refresh_interpretation();
 
  Q_SIGNALS:
   // Pillars of these faults differ, in what is stored or shown; faults that are gone are among them.
@@ -76,6 +84,7 @@ class Document final : public QObject {
   // Names, colours, order or number of faults differ.
   void faults_changed();
   void history_changed();
+  // There is one now, or its velocity differs.
   void survey_changed();
   void volumes_changed();
   void meshes_changed(const std::set<footwall::ui::Id>& faults);
@@ -89,18 +98,21 @@ class Document final : public QObject {
   void reload_volumes();
 
  private:
-  void reload_interpretation();
+  void reload_interpretation(std::map<Id, Fault> already = {});
+  void find_again(const Fault& fault);
+  void forget(const Fault& fault);
   void report(const Error& error);
   bool step(const std::function<std::optional<std::string>()>& one);
 
   project::Project project_;
   std::optional<survey::Geometry> survey_;
+  std::optional<double> velocity_;
   std::vector<Fault> faults_;
   std::vector<project::VolumeRecord> volumes_;
   std::vector<project::HistoryStep> history_;
   std::map<Id, std::size_t> place_of_fault_;
-  std::map<Id, Id> fault_of_pillar_;
-  std::map<Id, Id> fault_of_node_;
+  std::unordered_map<Id, Id> fault_of_pillar_;
+  std::unordered_map<Id, Id> fault_of_node_;
   std::map<Id, std::vector<survey::Pillar>> provisional_;
 };
 

@@ -14,22 +14,20 @@ constexpr double kFewestSamples = 30;  // below, a face is left out of rankings
 
 void FaceValues::set_surface(std::shared_ptr<const FaultSurface> surface) {
   const std::shared_ptr<const FaultSurface> before = std::exchange(surface_, std::move(surface));
-  const auto former_places = std::exchange(places_, {});
   const auto former_values = std::exchange(values_, {});
   const auto former_stale = std::exchange(stale_, {});
   if (surface_ == nullptr) return;
   const std::size_t count = surface_->faces.size();
   stale_.assign(count, 1);
   moved_.assign(count, 1);
+  if (before == nullptr) return;
   std::vector<std::size_t> from(count, former_stale.size());
   for (std::size_t f = 0; f < count; ++f) {
-    const std::pair<Id, std::int32_t> name{surface_->faces[f].panel, surface_->faces[f].n};
-    places_.emplace_hint(places_.end(), name, f);
-    const auto found = former_places.find(name);
-    if (found == former_places.end()) continue;
-    from[f] = found->second;
-    const bool stands = before->lattice[found->second] == surface_->lattice[f];
-    stale_[f] = stands ? former_stale[found->second] : std::uint8_t{1};
+    const std::size_t place = before->place_of(surface_->faces[f].panel, surface_->faces[f].n, f);
+    if (place == before->faces.size()) continue;
+    from[f] = place;
+    const bool stands = before->lattice[place] == surface_->lattice[f];
+    stale_[f] = stands ? former_stale[place] : std::uint8_t{1};
     moved_[f] = stands ? 0 : 1;
   }
   for (const auto& [statistic, old] : former_values) {
@@ -41,9 +39,11 @@ void FaceValues::set_surface(std::shared_ptr<const FaultSurface> surface) {
   }
 }
 
-std::size_t FaceValues::place_of(Id panel, std::int32_t number) const {
-  const auto found = places_.find({panel, number});
-  return found == places_.end() ? stale_.size() : found->second;
+const std::vector<double>* FaceValues::find(const std::string& statistic) const {
+  if (surface_ == nullptr) return nullptr;
+  if (const auto found = surface_->geometry.find(statistic); found != surface_->geometry.end()) return &found->second;
+  const auto found = values_.find(statistic);
+  return found == values_.end() ? nullptr : &found->second;
 }
 
 std::vector<double>& FaceValues::column(const std::string& statistic) {
@@ -52,25 +52,33 @@ std::vector<double>& FaceValues::column(const std::string& statistic) {
   return values;
 }
 
-void FaceValues::set(Id panel, std::int32_t number, const survey::LatticeTriangle* corners,
-                     const std::string& statistic, double value) {
-  const std::size_t place = place_of(panel, number);
-  if (place == stale_.size()) return;
-  column(statistic)[place] = value;
-  stale_[place] = corners != nullptr && *corners != surface_->lattice[place] ? 1 : 0;
-}
-
-void FaceValues::set_geometry(std::size_t face, const std::string& statistic, double value) {
-  geometry_.insert(statistic);
-  column(statistic)[face] = value;
+void FaceValues::set(std::span<const Id> panels, std::span<const std::int32_t> numbers,
+                     std::span<const survey::LatticeTriangle> corners,
+                     const std::map<std::string, std::span<const double>>& columns) {
+  if (surface_ == nullptr) return;
+  std::vector<std::size_t> places(panels.size());
+  std::size_t guess = 0;
+  for (std::size_t n = 0; n < panels.size(); ++n) {
+    const std::size_t place = places[n] = surface_->place_of(panels[n], numbers[n], guess);
+    if (place == stale_.size()) continue;
+    guess = place + 1;
+    stale_[place] = !corners.empty() && corners[n] != surface_->lattice[place] ? 1 : 0;
+  }
+  for (const auto& [statistic, values] : columns) {
+    if (is_geometry(statistic)) continue;
+    std::vector<double>& into = column(statistic);
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      if (places[n] < into.size()) into[places[n]] = values[n];
+    }
+  }
 }
 
 void FaceValues::scale(const std::string& product, const std::string& factor, const std::string& other) {
-  const auto a = values_.find(factor);
-  const auto b = values_.find(other);
-  if (a == values_.end() || b == values_.end()) return;
+  const std::vector<double>* a = find(factor);
+  const std::vector<double>* b = find(other);
+  if (a == nullptr || b == nullptr) return;
   std::vector<double>& into = column(product);
-  for (std::size_t f = 0; f < into.size(); ++f) into[f] = a->second[f] * b->second[f];
+  for (std::size_t f = 0; f < into.size(); ++f) into[f] = (*a)[f] * (*b)[f];
 }
 
 void FaceValues::mark_stale_since_sent() {
@@ -82,17 +90,15 @@ bool FaceValues::any_stale() const {
 }
 
 std::shared_ptr<const FaceNumbers> FaceValues::numbers(const std::string& statistic) const {
-  const auto found = values_.find(statistic);
-  if (found == values_.end()) return nullptr;
+  const std::vector<double>* values = find(statistic);
+  if (values == nullptr) return nullptr;
   auto numbers = std::make_shared<FaceNumbers>();
-  numbers->values = found->second;
+  numbers->values = *values;
   numbers->stale = stale_;
   if (is_geometry(statistic)) numbers->stale.assign(stale_.size(), 0);
   numbers->hatched.assign(stale_.size(), 0);
-  if (const auto counts = values_.find("count"); counts != values_.end()) {
-    for (std::size_t f = 0; f < stale_.size(); ++f) {
-      numbers->hatched[f] = counts->second[f] < kFewestSamples ? 1 : 0;
-    }
+  if (const std::vector<double>* counts = find("count")) {
+    for (std::size_t f = 0; f < stale_.size(); ++f) numbers->hatched[f] = (*counts)[f] < kFewestSamples ? 1 : 0;
   }
   return numbers;
 }

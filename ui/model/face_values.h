@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,33 +16,33 @@ class FaceValues {
  public:
   // The surface that the values are of from now on.
   void set_surface(std::shared_ptr<const FaultSurface> surface);
-  // Values of a face by its name, good for the face as it stands where `corners` are its own, or given none.
-  // Names that the surface does not have are passed over.
-  void set(Id panel, std::int32_t number, const survey::LatticeTriangle* corners, const std::string& statistic,
-           double value);
-  // What follows from the face's place alone, by its number in the surface; never stale.
-  void set_geometry(std::size_t face, const std::string& statistic, double value);
-  bool is_geometry(const std::string& statistic) const { return geometry_.contains(statistic); }
+  // Values of faces by their names, one of each column a face; they are good for a face as it stands where its entry in
+  // `corners` is its own, or where there are no corners. Names that the surface does not have are passed over.
+  void set(std::span<const Id> panels, std::span<const std::int32_t> numbers,
+           std::span<const survey::LatticeTriangle> corners,
+           const std::map<std::string, std::span<const double>>& columns);
+  // What follows from the faces' places alone (FaultSurface::geometry); never stale.
+  bool is_geometry(const std::string& statistic) const {
+    return surface_ != nullptr && surface_->geometry.contains(statistic);
+  }
   // product = factor * other, face by face.
   void scale(const std::string& product, const std::string& factor, const std::string& other);
   // Of an answer that was computed before the surface was last set: faces that moved since are stale after all.
   void mark_stale_since_sent();
-  bool is_known(const std::string& statistic) const { return values_.contains(statistic); }
+  bool is_known(const std::string& statistic) const { return find(statistic) != nullptr; }
   // Of faces with any value, whether one is stale; of all faces, whether one has none.
   bool any_stale() const;
-  const std::map<std::string, std::vector<double>>& values() const { return values_; }
+  // One value a face; null where nothing is known of the statistic.
+  const std::vector<double>* find(const std::string& statistic) const;
   std::shared_ptr<const FaceNumbers> numbers(const std::string& statistic) const;
 
  private:
-  std::size_t place_of(Id panel, std::int32_t number) const;  // size() where there is none
   std::vector<double>& column(const std::string& statistic);
 
   std::shared_ptr<const FaultSurface> surface_;
-  std::map<std::pair<Id, std::int32_t>, std::size_t> places_;
   std::map<std::string, std::vector<double>> values_;
   std::vector<std::uint8_t> stale_;
   std::vector<std::uint8_t> moved_;  // by the last set_surface()
-  std::set<std::string> geometry_;
 };
 
 }  // namespace footwall::ui

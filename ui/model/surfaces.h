@@ -27,6 +27,12 @@ struct FaultSurface {
   std::vector<survey::IndexPoint> places;  // of the same vertices, in voxels, as they are (not rounded)
   std::vector<project::MeshFace> faces;
   std::vector<survey::LatticeTriangle> lattice;
+  // What needs no voxels, by statistic, one value a face: area, dip ...
+  std::map<std::string, std::vector<double>> geometry;
+  std::vector<std::uint32_t> by_name;  // numbers of faces by rising (panel, n); empty: they stand so already
+
+  // The face of that name, looked for at `guess` first; faces.size() where there is none.
+  std::size_t place_of(Id panel, std::int32_t n, std::size_t guess) const;
 };
 
 // How much its colours are worth, as ui.md's four states.
@@ -38,6 +44,14 @@ struct FaceNumbers {
   std::vector<std::uint8_t> stale;   // 1: the value is that of the face before it moved
   std::vector<std::uint8_t> hatched; // 1: under 30 samples, left out of rankings
 };
+
+// The engine's numbers as a run of the project, which takes the place of the former live one of the volume.
+struct LiveRun {
+  project::RunRecord run;
+  std::vector<project::FaultRun> faults;
+};
+// Throws what the project refuses. May run on any thread that the project belongs to.
+void store(project::Project& project, const LiveRun& live);
 
 class EngineLink;
 
@@ -66,8 +80,8 @@ class Surfaces final : public QObject {
   void set_options(Id fault, const pillars::Options& options);
   // Nothing is being triangulated, and no answer of the engine is awaited.
   bool is_settled() const;
-  // Keeps what is known now as the live run of the engine's volume, in the project. Nothing where nothing is known.
-  void store_live_run();
+  // What is known now of the engine's volume, of those faults that are wholly fresh; nothing where nothing is known.
+  std::optional<LiveRun> live_run() const;
 
  Q_SIGNALS:
   void surfaces_changed(const std::set<footwall::ui::Id>& faults);

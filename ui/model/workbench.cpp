@@ -57,7 +57,11 @@ Workbench::Workbench(project::Project opened, const EngineLink::Options& engine_
 
 Workbench::~Workbench() {
   if (document.read_only()) return;
-  surfaces.store_live_run();
+  try {
+    if (const auto live = surfaces.live_run()) store(document.store(), *live);
+  } catch (const Error& error) {
+    log::warn("the live colours could not be stored: " + error.message());
+  }
   try {
     const QByteArray json = QJsonDocument(display.to_json()).toJson(QJsonDocument::Compact);
     document.store().set_setting(kDisplaySetting, json.toStdString());

@@ -57,10 +57,10 @@ void RunDialogTest::runs_as_a_job_and_attaches() {
   QSignalSpy started(&dialog, &RunDialog::started);
   QTest::mouseClick(dialog.findChild<QPushButton*>(QStringLiteral("run")), Qt::LeftButton);
   QCOMPARE(started.size(), 1);
-  QCOMPARE(meshes.size(), 1);
   QVERIFY(ended.wait(60'000));
   QVERIFY2(ended[0][1].value<Jobs::State>() == Jobs::State::kDone, qPrintable(ended[0][2].toString()));
   QCOMPARE(runs.size(), 1);
+  QVERIFY(!meshes.empty());
   const auto all = workbench.document.project().runs();
   QCOMPARE(all.size(), std::size_t{1});
   QCOMPARE(all[0].name, std::string("first"));

@@ -9,6 +9,7 @@
 #include "engine/tasks/extract_run.h"
 #include "ui/model/engine_link.h"
 #include "ui/model/surfaces.h"
+#include "ui/model/update_all.h"
 #include "ui/sample_project.h"
 #include "ui/test_class.h"
 
@@ -41,6 +42,8 @@ class LiveColoursTest final : public QObject {
   void numbers_are_those_of_a_run();
   void colours_follow_a_hand_and_go_on_after_a_death();
   void a_live_run_is_there_again_when_opened();
+  void update_all_computes_and_keeps();
+  void an_update_can_be_cancelled();
 };
 
 void LiveColoursTest::surfaces_are_made_without_an_engine() {
@@ -142,13 +145,59 @@ void LiveColoursTest::a_live_run_is_there_again_when_opened() {
     Coloured desk(sample, 1);
     QTRY_VERIFY_WITH_TIMEOUT(desk.is_fresh(), kPatience);
     known = desk.surfaces.numbers(desk.fault(), "variance")->values;
-    desk.surfaces.store_live_run();
+    store(desk.document.store(), desk.surfaces.live_run().value());
   }
   Document document(sample.open());
   Surfaces surfaces(document, nullptr);
   const Id fault = document.faults()[0].record.id;
   QTRY_COMPARE_WITH_TIMEOUT(surfaces.freshness(fault, "variance"), Freshness::kFresh, kPatience);
   QCOMPARE(surfaces.numbers(fault, "variance")->values, known);
+}
+
+void LiveColoursTest::update_all_computes_and_keeps() {
+  const SampleProject sample;
+  Workbench bench(sample.open(), {.ranks = 1, .connection = {}});
+  QCOMPARE(bench.engine.state(), EngineLink::State::kOff);
+  QSignalSpy ended(&bench.jobs, &Jobs::finished);
+  QSignalSpy runs(&bench.document, &Document::runs_changed);
+  const int job = start_update(bench);
+  QCOMPARE(start_update(bench), job);  // one at a time
+  QVERIFY(ended.wait(kPatience));
+  QVERIFY2(ended[0][1].value<Jobs::State>() == Jobs::State::kDone, qPrintable(ended[0][2].toString()));
+  QCOMPARE(runs.size(), 1);
+  for (const Fault& fault : bench.document.faults()) {
+    QCOMPARE(bench.surfaces.freshness(fault.record.id, "variance"), Freshness::kFresh);
+  }
+  const auto stored = bench.document.project().runs();
+  QCOMPARE(stored.size(), std::size_t{1});
+  QVERIFY(stored[0].live);
+  const Fault& fault = bench.document.faults()[0];
+  const auto kept = bench.document.project().fault_statistics(stored[0].id, fault.record.id);
+  const auto numbers = bench.surfaces.numbers(fault.record.id, "variance");
+  QCOMPARE(kept.statistics.at("variance").size(), numbers->values.size());
+  for (std::size_t f = 0; f < numbers->values.size(); ++f) {
+    QVERIFY(kept.statistics.at("variance")[f] == numbers->values[f] || std::isnan(numbers->values[f]));
+  }
+  // Again with nothing to do: at once, and the live run is still one.
+  QVERIFY(start_update(bench) != job);
+  QTRY_COMPARE_WITH_TIMEOUT(ended.size(), 2, kPatience);
+  QCOMPARE(ended[1][1].value<Jobs::State>(), Jobs::State::kDone);
+  QCOMPARE(bench.document.project().runs().size(), std::size_t{1});
+}
+
+void LiveColoursTest::an_update_can_be_cancelled() {
+  const SampleProject sample;
+  Workbench bench(sample.open(), {.ranks = 1, .connection = {}});
+  QSignalSpy ended(&bench.jobs, &Jobs::finished);
+  const int job = start_update(bench);
+  bench.jobs.cancel(job);
+  QVERIFY(ended.wait(kPatience));
+  QCOMPARE(ended[0][1].value<Jobs::State>(), Jobs::State::kCancelled);
+  QVERIFY(bench.document.project().runs().empty());
+  const int another = start_update(bench);
+  QVERIFY(another != job);
+  bench.jobs.cancel(another);
+  QTRY_COMPARE_WITH_TIMEOUT(ended.size(), 2, kPatience);
 }
 
 static const RegisterTest<LiveColoursTest> kRegistered;

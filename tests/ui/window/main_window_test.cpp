@@ -172,6 +172,11 @@ void MainWindowTest::names_a_missing_volume() {
   QVERIFY(window.open_project(text_of(sample.path())));
   const QString name = QString::fromStdString(window.workbench()->document.volumes().front().name);
   QVERIFY(window.banners().has(QStringLiteral("missing-") + name));
+  const std::string file = window.workbench()->document.volumes().front().file;
+  window.relink(QString(), text_of(sample.path().parent_path() / "elsewhere" / file));
+  QTRY_VERIFY2(!window.banners().has(QStringLiteral("missing-") + name),
+               qPrintable(window.banners().text(QStringLiteral("failure"))));
+  QVERIFY(window.workbench()->document.project().missing().empty());
 }
 
 void MainWindowTest::takes_dropped_files() {
@@ -198,12 +203,12 @@ void MainWindowTest::takes_dropped_files() {
       << "\nVRTX 3 " << c.x << ' ' << c.y << ' ' << c.z << "\nTRGL 1 2 3\nEND\n";
   const std::size_t faults = document.faults().size();
   drop(window, sticks);
-  QVERIFY2(document.faults().size() == faults + 1,
-           qPrintable(window.banners().text(QStringLiteral("failure"))));
-  QVERIFY(window.banners().has(QStringLiteral("import")));
+  QTRY_VERIFY2(document.faults().size() == faults + 1,
+               qPrintable(window.banners().text(QStringLiteral("failure"))));
+  QTRY_VERIFY(window.banners().has(QStringLiteral("import")));
   drop(window, surface);
-  QVERIFY2(document.faults().size() == faults + 2,
-           qPrintable(window.banners().text(QStringLiteral("failure"))));
+  QTRY_VERIFY2(document.faults().size() == faults + 2,
+               qPrintable(window.banners().text(QStringLiteral("failure"))));
   QVERIFY(document.undo());
   QVERIFY(document.undo());
   QCOMPARE(document.faults().size(), faults);

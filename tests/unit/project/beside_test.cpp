@@ -14,7 +14,8 @@ namespace {
 class Beside : public ProjectFolder {
  protected:
   // Whether another process finds a POSIX lock on the project's file: asked by a child, since locks do not go
-  // over to children and a process does not see its own. What keeps other programs from taking SQLite's log away.
+  // over to children and a process does not see its own. What keeps other programs from taking SQLite's log
+  // away.
   bool is_locked_for_others() const {
     const pid_t child = ::fork();
     if (child == 0) {
