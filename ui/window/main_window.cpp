@@ -207,6 +207,16 @@ void MainWindow::connect_workbench() {
                             &Document::volumes_changed}) {
     connect(&bench.document, signal, actions_, &Actions::refresh);
   }
+  // Now and then: the sizes of all steps are added up.
+  constexpr std::size_t kSteps = 256;
+  connect(&bench.document, &Document::history_changed, this, [this, &document = bench.document] {
+    if (document.history().size() % kSteps != 0) return;
+    try {
+      warn_of_history(*this);
+    } catch (const Error& error) {
+      tell_failure(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
+    }
+  });
   connect(&bench.selection, &Selection::changed, actions_, &Actions::refresh);
   connect(&bench.picking, &Picking::tool_changed, actions_, &Actions::refresh);
   for (const auto signal : {&Display::samples_changed, &Display::faces_changed, &Display::scene_changed}) {
@@ -259,6 +269,7 @@ void MainWindow::show_lasting_banners(const QString& held) {
                                             QString::fromStdString(missing.reason)),
                            .buttons = {{tr("Relink…"), [this, volume] { relink_missing(volume); }}}});
   }
+  warn_of_history(*this);
   show_engine_banner();
 }
 

@@ -9,6 +9,7 @@
 #include <QTest>
 #include <fstream>
 
+#include "ui/dialogs/trim_history_dialog.h"
 #include "ui/model/fault_commands.h"
 #include "ui/panels/history_panel.h"
 #include "ui/panels/inspector_panel.h"
@@ -17,6 +18,7 @@
 #include "ui/test_class.h"
 #include "ui/window/actions.h"
 #include "ui/window/banner.h"
+#include "ui/window/dialogs.h"
 #include "ui/window/docks.h"
 #include "ui/window/saved_views.h"
 #include "ui/window/start_page.h"
@@ -55,6 +57,7 @@ class MainWindowTest final : public QObject {
   void hides_and_shows_all_panels();
   void opens_read_only_where_somebody_writes_and_follows();
   void names_a_missing_volume();
+  void drops_old_history_when_told_to();
   void takes_dropped_files();
   void makes_the_demo_as_a_job();
   void reads_out_the_cursor();
@@ -177,6 +180,33 @@ void MainWindowTest::names_a_missing_volume() {
   QTRY_VERIFY2(!window.banners().has(QStringLiteral("missing-") + name),
                qPrintable(window.banners().text(QStringLiteral("failure"))));
   QVERIFY(window.workbench()->document.project().missing().empty());
+}
+
+void MainWindowTest::drops_old_history_when_told_to() {
+  const SampleProject sample;
+  MainWindow window({});
+  window.show();
+  QVERIFY(window.open_project(text_of(sample.path())));
+  Document& document = window.workbench()->document;
+  QVERIFY(!window.banners().has(QStringLiteral("history")));
+  for (int n = 0; n < 3; ++n) QVERIFY(new_fault(document) != 0);
+  const std::size_t steps = document.history().size(), faults = document.faults().size();
+  document.store().set_setting("history.keep_days", "0");
+  QTRY_COMPARE(document.project().history_size(days_ago(0)).steps, static_cast<std::int64_t>(steps));
+  warn_of_history(window);
+  QVERIFY2(window.banners().text(QStringLiteral("history")).contains(QString::number(steps)),
+           qPrintable(window.banners().text(QStringLiteral("history"))));
+  QVERIFY(window.banners().press(QStringLiteral("history"), 0));
+  auto* dialog = window.findChild<TrimHistoryDialog*>();
+  QVERIFY(dialog != nullptr);
+  QVERIFY2(dialog->message().startsWith(QStringLiteral("%1 of %1 steps").arg(steps)),
+           qPrintable(dialog->message()));
+  dialog->trim();
+  QTRY_COMPARE(document.history().size(), std::size_t{0});
+  QCOMPARE(document.faults().size(), faults);
+  QVERIFY(!document.can_undo());
+  QVERIFY(new_fault(document) != 0);
+  QVERIFY(document.can_undo());
 }
 
 void MainWindowTest::takes_dropped_files() {
