@@ -19,8 +19,8 @@ Point in_chart(const pillars::Chart& chart, const survey::LatticePoint& corner) 
   return {at.strike, at.dip};
 }
 
-// Twice the signed area of a, b, p. The same number but for its sign when a and b change places, so that a centre on an
-// edge between two triangles is never in neither.
+// Twice the signed area of a, b, p. The same number but for its sign when a and b change places, so that a
+// centre on an edge between two triangles is never in neither.
 double side(const Point& a, const Point& b, const Point& p) {
   const bool turned = b.x < a.x || (b.x == a.x && b.y < a.y);
   const Point& from = turned ? b : a;
@@ -53,13 +53,15 @@ pillars::Chart mean_plane(std::span<const survey::LatticeTriangle> triangles) {
   pillars::PillarInput all;
   all.id = 1;
   for (const survey::LatticeTriangle& triangle : triangles) {
-    for (const survey::LatticePoint& corner : triangle) all.nodes.push_back(survey::Lattice::index_of(corner));
+    for (const survey::LatticePoint& corner : triangle)
+      all.nodes.push_back(survey::Lattice::index_of(corner));
   }
   return pillars::fit_chart(std::span(&all, 1));
 }
 
-ChartRaster raster_over(const pillars::Chart& chart, std::span<const std::span<const survey::LatticeTriangle>> triangles,
-                        double cell, std::int64_t most) {
+ChartRaster raster_over(const pillars::Chart& chart,
+                        std::span<const std::span<const survey::LatticeTriangle>> triangles, double cell,
+                        std::int64_t most) {
   require(cell > 0 && std::isfinite(cell) && most >= 1, "a raster needs cells of a size, and room for one");
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Point low{kFar, kFar}, high{-kFar, -kFar};
@@ -89,7 +91,8 @@ ChartRaster raster_over(const pillars::Chart& chart, std::span<const std::span<c
   }
 }
 
-std::vector<std::int32_t> covering_faces(const ChartRaster& raster, std::span<const survey::LatticeTriangle> triangles,
+std::vector<std::int32_t> covering_faces(const ChartRaster& raster,
+                                         std::span<const survey::LatticeTriangle> triangles,
                                          const JobContext& job) {
   std::vector<std::int32_t> faces(raster.cells(), -1);
   const auto cells_between = [&](double low, double high, double zero, std::int64_t count) {

@@ -23,7 +23,8 @@ project::FaultRun fault_in(const project::Project& project, const project::RunRe
                            const project::FaultRecord& fault, const std::string& statistic) {
   const std::vector<std::int64_t> faults = project.run_faults(run.id);
   if (std::ranges::find(faults, fault.id) == faults.end()) {
-    throw Error(ErrorCode::kInvalid, fmt::format("run {} ({}) does not have fault {}", run.id, run.name, fault.name),
+    throw Error(ErrorCode::kInvalid,
+                fmt::format("run {} ({}) does not have fault {}", run.id, run.name, fault.name),
                 "choose another run or fault");
   }
   project::FaultRun stored = project.fault_statistics(run.id, fault.id);
@@ -47,8 +48,8 @@ pillars::Chart chart_of(const project::Project& project, const project::FaultRec
   return pillars::Chart::from_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-std::vector<double> values_on(const ChartRaster& raster, const project::FaultRun& run, const std::string& statistic,
-                              const JobContext& job) {
+std::vector<double> values_on(const ChartRaster& raster, const project::FaultRun& run,
+                              const std::string& statistic, const JobContext& job) {
   const std::vector<double>& of_faces = run.statistics.at(statistic);
   std::vector<double> values;
   values.reserve(raster.cells());
@@ -96,7 +97,8 @@ CellPlace place_of(const RunComparison& comparison, std::int64_t column, std::in
           static_cast<double>(row) * comparison.raster.cell * comparison.metres.dip};
 }
 
-RunComparison compare_runs(const project::Project& project, const CompareChoice& choice, const JobContext& job) {
+RunComparison compare_runs(const project::Project& project, const CompareChoice& choice,
+                           const JobContext& job) {
   const survey::Geometry survey = required_survey(project, "the comparison of runs");
   const project::FaultRecord fault = project.fault(choice.fault);
   RunComparison comparison;
@@ -118,7 +120,8 @@ RunComparison compare_runs(const project::Project& project, const CompareChoice&
   return comparison;
 }
 
-void write_csv(const RunComparison& comparison, const survey::Geometry& survey, const std::filesystem::path& file) {
+void write_csv(const RunComparison& comparison, const survey::Geometry& survey,
+               const std::filesystem::path& file) {
   std::string table = "along_m,down_m,x,y,z,a,b,difference\n";
   const ChartRaster& raster = comparison.raster;
   for (std::int64_t row = 0; row < raster.rows; ++row) {
@@ -126,13 +129,12 @@ void write_csv(const RunComparison& comparison, const survey::Geometry& survey, 
       const auto cell = static_cast<std::size_t>(row * raster.columns + column);
       if (!std::isfinite(comparison.a[cell]) && !std::isfinite(comparison.b[cell])) continue;
       const CellPlace place = place_of(comparison, column, row);
-      const survey::WorldPoint at = survey.world_of(
-          raster.chart.to_index({raster.strike0 + static_cast<double>(column) * raster.cell,
-                                 raster.dip0 + static_cast<double>(row) * raster.cell, 0}));
+      const survey::WorldPoint at =
+          survey.world_of(raster.chart.to_index({raster.strike0 + static_cast<double>(column) * raster.cell,
+                                                 raster.dip0 + static_cast<double>(row) * raster.cell, 0}));
       bool first = true;
-      for (const double value :
-           {place.along, place.down, at.x, at.y, at.z, comparison.a[cell], comparison.b[cell],
-            comparison.difference[cell]}) {
+      for (const double value : {place.along, place.down, at.x, at.y, at.z, comparison.a[cell],
+                                 comparison.b[cell], comparison.difference[cell]}) {
         if (!first) table += ',';
         first = false;
         if (std::isfinite(value)) table += text::shortest(value);

@@ -1,4 +1,5 @@
-// One statistic of one fault in two runs, also on different meshes: both are brought onto the fault's chart raster.
+// One statistic of one fault in two runs, also on different meshes: both are brought onto the fault's chart
+// raster.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -23,9 +24,9 @@ struct RunComparison {
   std::string fault, statistic, unit;
   project::RunRecord run_a, run_b;
   ChartRaster raster;
-  ChartScale metres;               // of one voxel along strike and dip
-  double velocity = 0;             // m/s, that heights of a time survey became metres with; 0 where none was needed
-  bool assumed_velocity = false;   // the survey has none: 1 ms of two-way time counts 1 m
+  ChartScale metres;    // of one voxel along strike and dip
+  double velocity = 0;  // m/s, that heights of a time survey became metres with; 0 where none was needed
+  bool assumed_velocity = false;         // the survey has none: 1 ms of two-way time counts 1 m
   std::vector<double> a, b, difference;  // one a cell; NaN: no face there, or a face without a value; B - A
   std::int64_t only_a = 0, only_b = 0, both = 0;  // cells with a value
   std::optional<double> mean, rms, largest;       // of the difference; largest by its amount, with its sign
@@ -37,12 +38,16 @@ struct CellPlace {
 };
 CellPlace place_of(const RunComparison& comparison, std::int64_t column, std::int64_t row);
 
-// The chart is the fault's, or of its mesh; without one the mean plane of run A's faces. Throws kNotFound for a fault, run
-// or statistic that is not there, kInvalid where a run does not have the fault or the project has no survey, kCancelled.
-RunComparison compare_runs(const project::Project& project, const CompareChoice& choice, const JobContext& job);
+// The chart is the fault's, or of its mesh; without one the mean plane of run A's faces. Throws kNotFound for
+// a fault, run or statistic that is not there, kInvalid where a run does not have the fault or the project
+// has no survey, kCancelled.
+RunComparison compare_runs(const project::Project& project, const CompareChoice& choice,
+                           const JobContext& job);
 
-// along_m,down_m,x,y,z,a,b,difference of every cell with a value in either run; x, y, z: of the cell's centre on the
-// chart's plane, in the survey's CRS and vertical unit. Undefined is empty. Throws kIo, kInvalid as files do.
-void write_csv(const RunComparison& comparison, const survey::Geometry& survey, const std::filesystem::path& file);
+// along_m,down_m,x,y,z,a,b,difference of every cell with a value in either run; x, y, z: of the cell's centre
+// on the chart's plane, in the survey's CRS and vertical unit. Undefined is empty. Throws kIo, kInvalid as
+// files do.
+void write_csv(const RunComparison& comparison, const survey::Geometry& survey,
+               const std::filesystem::path& file);
 
 }  // namespace footwall::tasks

@@ -73,8 +73,20 @@ Workbench::~Workbench() {
 std::unique_ptr<Workbench> open_workbench(const std::filesystem::path& path, const EngineLink::Options& engine,
                                           QString* held) {
   held->clear();
+  std::unique_ptr<EditSocket> edits;
+  project::OpenOptions options;
   try {
-    return std::make_unique<Workbench>(project::Project::open(path, project::OpenMode::kWrite), engine);
+    edits = std::make_unique<EditSocket>();
+    options.edit_socket = edits->path();
+  } catch (const Error& error) {
+    log::warn("no edits are taken from other programs: " + error.message());
+  }
+  try {
+    auto workbench =
+        std::make_unique<Workbench>(project::Project::open(path, project::OpenMode::kWrite, options), engine);
+    if (edits) edits->serve(workbench->document);
+    workbench->edits = std::move(edits);
+    return workbench;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::kHeld) throw;
     *held = QString::fromStdString(error.message());

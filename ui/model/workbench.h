@@ -4,6 +4,7 @@
 
 #include "ui/model/display.h"
 #include "ui/model/document.h"
+#include "ui/model/edit_socket.h"
 #include "ui/model/engine_link.h"
 #include "ui/model/jobs.h"
 #include "ui/model/picking.h"
@@ -27,6 +28,7 @@ struct Workbench {
   EngineLink engine;
   Surfaces surfaces;
   Jobs jobs;
+  std::unique_ptr<EditSocket> edits;  // null where none are taken
 };
 
 // A project by path. For writing; where somebody else writes it, for reading, and

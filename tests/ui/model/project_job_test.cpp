@@ -10,6 +10,7 @@
 #include <fstream>
 #include <thread>
 
+#include "engine/tasks/edit_at_holder.h"
 #include "engine/tasks/import_sticks.h"
 #include "engine/tasks/import_surface.h"
 #include "ui/sample_project.h"
@@ -47,6 +48,7 @@ class ProjectJobTest final : public QObject {
   void a_cancelled_import_leaves_nothing();
   void a_gesture_meanwhile_is_not_lost();
   void keeps_what_was_stored_before_a_failure();
+  void takes_edits_from_the_command_line();
 };
 
 // Sticks across the survey: `sticks` of `nodes` each.
@@ -56,7 +58,8 @@ static QString sticks_file(const SampleProject& sample, const Document& document
   for (int s = 0; s < sticks; ++s) {
     for (int n = 0; n < nodes; ++n) {
       const double along = static_cast<double>(s) / sticks, down = static_cast<double>(n) / nodes;
-      const survey::WorldPoint p = document.survey()->world_of({2 + 40 * along, 20 + 3 * std::sin(9 * along), 60 * down});
+      const survey::WorldPoint p =
+          document.survey()->world_of({2 + 40 * along, 20 + 3 * std::sin(9 * along), 60 * down});
       file << std::fixed << p.x << ' ' << p.y << ' ' << p.z << ' ' << s + 1 << ' ' << n + 1 << '\n';
     }
   }
@@ -85,7 +88,8 @@ void ProjectJobTest::imports_while_the_window_goes_on() {
   QCOMPARE(made.pillars.size(), std::size_t{1000});
   const Id node = made.pillars[7].nodes[3].id;
   QCOMPARE(workbench.document.fault_of_node(node)->record.id, made.record.id);
-  qInfo("import of 100,000 nodes: the window waited for %lld ms at most, in %d turns", block.ms(), block.turns());
+  qInfo("import of 100,000 nodes: the window waited for %lld ms at most, in %d turns", block.ms(),
+        block.turns());
   QVERIFY(block.turns() > 20);
   QVERIFY(workbench.document.undo());
   QCOMPARE(workbench.document.faults().size(), faults);
@@ -101,29 +105,33 @@ void ProjectJobTest::a_large_surface_comes_in_while_the_window_goes_on() {
     // Two triangles for each of the squares of a gently bent sheet.
     const int side = qEnvironmentVariableIsSet("FOOTWALL_LARGE") ? 708 : 160;
     std::ofstream file(path);
-    file << "GOCAD TSurf 1\nHEADER {\nname:large\n}\nGOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME Default\nAXIS_NAME \"X\" "
-            "\"Y\" \"Z\"\nAXIS_UNIT \"m\" \"m\" \"ms\"\nZPOSITIVE Depth\nEND_ORIGINAL_COORDINATE_SYSTEM\nTFACE\n";
+    file << "GOCAD TSurf 1\nHEADER {\nname:large\n}\nGOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME "
+            "Default\nAXIS_NAME \"X\" "
+            "\"Y\" \"Z\"\nAXIS_UNIT \"m\" \"m\" \"ms\"\nZPOSITIVE "
+            "Depth\nEND_ORIGINAL_COORDINATE_SYSTEM\nTFACE\n";
     for (int a = 0; a < side; ++a) {
       for (int b = 0; b < side; ++b) {
         const double u = static_cast<double>(a) / side, v = static_cast<double>(b) / side;
-        const survey::WorldPoint p = workbench.document.survey()->world_of({2 + 44 * u, 18 + 4 * std::sin(3 * u), 60 * v});
+        const survey::WorldPoint p =
+            workbench.document.survey()->world_of({2 + 44 * u, 18 + 4 * std::sin(3 * u), 60 * v});
         file << "VRTX " << a * side + b + 1 << ' ' << std::fixed << p.x << ' ' << p.y << ' ' << p.z << '\n';
       }
     }
     for (int a = 0; a + 1 < side; ++a) {
       for (int b = 0; b + 1 < side; ++b) {
         const int n = a * side + b + 1;
-        file << "TRGL " << n << ' ' << n + side << ' ' << n + 1 << "\nTRGL " << n + 1 << ' ' << n + side << ' '
-             << n + side + 1 << '\n';
+        file << "TRGL " << n << ' ' << n + side << ' ' << n + 1 << "\nTRGL " << n + 1 << ' ' << n + side
+             << ' ' << n + side + 1 << '\n';
       }
     }
     file << "END\n";
   }
   QSignalSpy ended(&workbench.jobs, &Jobs::finished);
   LongestBlock block;
-  start_on_project(workbench, QStringLiteral("Import"), [path](project::Project& project, const JobContext& job) {
-    tasks::import_surface(project, path, {}, job);
-  });
+  start_on_project(workbench, QStringLiteral("Import"),
+                   [path](project::Project& project, const JobContext& job) {
+                     tasks::import_surface(project, path, {}, job);
+                   });
   QVERIFY(ended.wait(300'000));
   QVERIFY2(ended[0][1].value<Jobs::State>() == Jobs::State::kDone, qPrintable(ended[0][2].toString()));
   const Id fault = workbench.document.faults().back().record.id;
@@ -131,7 +139,8 @@ void ProjectJobTest::a_large_surface_comes_in_while_the_window_goes_on() {
   const std::size_t faces = workbench.surfaces.surface(fault)->faces.size();
   QVERIFY(faces > 50'000);
   QCOMPARE(workbench.surfaces.freshness(fault, "dip"), Freshness::kFresh);
-  qInfo("import of %zu triangles: the window waited for %lld ms at most, in %d turns", faces, block.ms(), block.turns());
+  qInfo("import of %zu triangles: the window waited for %lld ms at most, in %d turns", faces, block.ms(),
+        block.turns());
   QVERIFY(block.turns() > 20);
 }
 
@@ -165,11 +174,14 @@ void ProjectJobTest::a_gesture_meanwhile_is_not_lost() {
     });
   });
   QTRY_VERIFY(inside->load());
-  QVERIFY(document.edit(QStringLiteral("Move"), [&](project::Interpretation& now) { now.move_pillar(pillar.id, {5, 0, 0}); }));
+  QVERIFY(document.edit(QStringLiteral("Move"), [&](project::Interpretation& now) {
+    now.move_pillar(pillar.id, {5, 0, 0});
+  }));
   QTRY_COMPARE(ended.size(), 1);
   QCOMPARE(failed.size(), 0);
   QCOMPARE(document.pillar(pillar.id)->nodes[0].position.x, pillar.nodes[0].position.x + 5);
-  QVERIFY(std::ranges::any_of(document.faults(), [](const Fault& fault) { return fault.record.name == "slowly"; }));
+  QVERIFY(std::ranges::any_of(document.faults(),
+                              [](const Fault& fault) { return fault.record.name == "slowly"; }));
   QCOMPARE(document.history().back().name, std::string("Move"));
 }
 
@@ -185,6 +197,46 @@ void ProjectJobTest::keeps_what_was_stored_before_a_failure() {
   QCOMPARE(ended[0][1].value<Jobs::State>(), Jobs::State::kFailed);
   QCOMPARE(ended[0][2].toString(), QStringLiteral("the second cannot be"));
   QCOMPARE(workbench.document.faults().back().record.name, std::string("first"));
+}
+
+void ProjectJobTest::takes_edits_from_the_command_line() {
+  const SampleProject sample;
+  QString held;
+  const auto workbench = open_workbench(sample.path(), {}, &held);
+  QVERIFY(workbench->edits != nullptr);
+  const std::string socket = project::edit_socket_of(sample.path());
+  QCOMPARE(socket, workbench->edits->path());
+  const auto folder = std::filesystem::status(std::filesystem::path(socket).parent_path()).permissions();
+  QVERIFY((folder & (std::filesystem::perms::group_all | std::filesystem::perms::others_all)) ==
+          std::filesystem::perms::none);
+  Document& document = workbench->document;
+  const std::size_t steps = document.history().size();
+  QSignalSpy facts(&document, &Document::faults_changed);
+  struct Said {
+    nlohmann::json fault, failure;
+    std::atomic<bool> over = false;
+  } said;
+  std::thread client([&] {
+    try {
+      tasks::EditAtHolder holder(socket);
+      said.fault = holder.apply(R"({"op":"add","what":"fault","name":"from afar"})", 1);
+      holder.apply(R"({"op":"rename","what":"fault","fault":"nobody","name":"x"})", 4);
+    } catch (const Error& error) {
+      said.failure = tasks::edit_failure(error);
+    }
+    said.over = true;
+  });
+  QTRY_VERIFY(said.over.load());
+  client.join();
+  QVERIFY(said.fault.contains("fault"));
+  QCOMPARE(said.failure["error"]["code"].get<std::string>(), std::string("not_found"));
+  QVERIFY(said.failure["error"]["message"].get<std::string>().starts_with("line 4: "));
+  QCOMPARE(document.history().size(), steps + 1);
+  QCOMPARE(document.faults().back().record.name, std::string("from afar"));
+  QCOMPARE(facts.size(), 1);
+  QVERIFY(document.undo());
+  QVERIFY(std::ranges::none_of(document.faults(),
+                               [](const Fault& fault) { return fault.record.name == "from afar"; }));
 }
 
 static const RegisterTest<ProjectJobTest> registered;

@@ -57,6 +57,7 @@ class MainWindowTest final : public QObject {
   void hides_and_shows_all_panels();
   void opens_read_only_where_somebody_writes_and_follows();
   void names_a_missing_volume();
+  void footwall_edit_shows_in_the_window();
   void drops_old_history_when_told_to();
   void takes_dropped_files();
   void makes_the_demo_as_a_job();
@@ -180,6 +181,30 @@ void MainWindowTest::names_a_missing_volume() {
   QTRY_VERIFY2(!window.banners().has(QStringLiteral("missing-") + name),
                qPrintable(window.banners().text(QStringLiteral("failure"))));
   QVERIFY(window.workbench()->document.project().missing().empty());
+}
+
+void MainWindowTest::footwall_edit_shows_in_the_window() {
+  const SampleProject sample;
+  MainWindow window({});
+  window.show();
+  QVERIFY(window.open_project(text_of(sample.path())));
+  Document& document = window.workbench()->document;
+  const std::size_t faults = document.faults().size(), steps = document.history().size();
+  QProcess footwall;
+  footwall.start(QCoreApplication::applicationDirPath() + QStringLiteral("/footwall"),
+                 {QStringLiteral("edit"), text_of(sample.path())});
+  QVERIFY(footwall.waitForStarted());
+  footwall.write(
+      "{\"op\":\"add\",\"what\":\"fault\",\"name\":\"one\"}\n{\"op\":\"add\",\"what\":\"fault\",\"name\":"
+      "\"two\"}\n");
+  footwall.closeWriteChannel();
+  QTRY_VERIFY(footwall.state() == QProcess::NotRunning);
+  QVERIFY2(footwall.exitCode() == 0, footwall.readAllStandardError());
+  QCOMPARE(footwall.readAllStandardOutput().count('\n'), 2);
+  QCOMPARE(document.faults().size(), faults + 2);
+  QCOMPARE(document.history().size(), steps + 2);
+  QVERIFY(document.undo());
+  QCOMPARE(document.faults().back().record.name, std::string("one"));
 }
 
 void MainWindowTest::drops_old_history_when_told_to() {

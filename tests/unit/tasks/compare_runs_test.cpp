@@ -30,7 +30,9 @@ survey::Geometry metre_survey() {
 }
 
 survey::LatticePoint lattice(double i, double j, double k) {
-  const auto whole = [](double at) { return static_cast<std::int32_t>(std::lround(at * survey::kLatticePerVoxel)); };
+  const auto whole = [](double at) {
+    return static_cast<std::int32_t>(std::lround(at * survey::kLatticePerVoxel));
+  };
   return {whole(i), whole(j), whole(k)};
 }
 
@@ -44,8 +46,8 @@ pillars::Chart upright() {
   return chart;
 }
 
-// How far inside the triangle the point lies, in the units of the chart; negative outside. Plain geometry: the least
-// distance to the three lines through its edges, on the side of the third corner.
+// How far inside the triangle the point lies, in the units of the chart; negative outside. Plain geometry:
+// the least distance to the three lines through its edges, on the side of the third corner.
 double depth_inside(const std::array<pillars::ChartPoint, 3>& t, double x, double y) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < 3; ++c) {
@@ -69,7 +71,8 @@ TEST(ChartRaster, EveryCellHasTheFirstFaceThatHoldsItsCentre) {
     std::vector<survey::LatticeTriangle> triangles;
     for (int n = 0; n < 30; ++n) {
       survey::LatticeTriangle triangle;
-      for (survey::LatticePoint& corner : triangle) corner = lattice(10 + thick(random), along(random), along(random));
+      for (survey::LatticePoint& corner : triangle)
+        corner = lattice(10 + thick(random), along(random), along(random));
       triangles.push_back(triangle);
     }
     const std::array<std::span<const survey::LatticeTriangle>, 1> all{triangles};
@@ -85,8 +88,8 @@ TEST(ChartRaster, EveryCellHasTheFirstFaceThatHoldsItsCentre) {
         for (int f = 0; f < static_cast<int>(triangles.size()); ++f) {
           std::array<pillars::ChartPoint, 3> corners;
           for (std::size_t c = 0; c < 3; ++c) {
-            corners[c] = raster.chart.from_index(
-                survey::Lattice::index_of(triangles[static_cast<std::size_t>(f)][c]));
+            corners[c] =
+                raster.chart.from_index(survey::Lattice::index_of(triangles[static_cast<std::size_t>(f)][c]));
           }
           const double inside = depth_inside(corners, x, y);
           if (f == found) {
@@ -108,7 +111,8 @@ TEST(ChartRaster, LeavesNoHoleBetweenNeighbours) {
   for (std::size_t n = 0; n < rim.size(); ++n) {
     const auto& a = rim[n];
     const auto& b = rim[(n + 1) % rim.size()];
-    fan.push_back({lattice(10, 30, 30), lattice(10, 30 + a[0], 30 + a[1]), lattice(10, 30 + b[0], 30 + b[1])});
+    fan.push_back(
+        {lattice(10, 30, 30), lattice(10, 30 + a[0], 30 + a[1]), lattice(10, 30 + b[0], 30 + b[1])});
   }
   const std::array<std::span<const survey::LatticeTriangle>, 1> all{fan};
   const ChartRaster raster = raster_over(upright(), all, 1);
@@ -143,7 +147,8 @@ class CompareRuns : public ::testing::Test {
       for (int b = 0; b < count; ++b) {
         const double j = j0 + a * leg, k = k0 + b * leg;
         run.lattice.push_back({lattice(10, j, k), lattice(10, j + leg, k), lattice(10, j, k + leg)});
-        run.lattice.push_back({lattice(10, j + leg, k), lattice(10, j + leg, k + leg), lattice(10, j, k + leg)});
+        run.lattice.push_back(
+            {lattice(10, j + leg, k), lattice(10, j + leg, k + leg), lattice(10, j, k + leg)});
         for (int n = 0; n < 2; ++n) {
           run.panels.push_back(1);
           run.numbers.push_back(static_cast<std::int32_t>(run.numbers.size()));
@@ -174,8 +179,9 @@ TEST_F(CompareRuns, SubtractsWhereBothHaveAFaceAndLeavesTheRestBlank) {
   for (std::int64_t row = 0; row < made.raster.rows; ++row) {
     for (std::int64_t column = 0; column < made.raster.columns; ++column) {
       const auto cell = static_cast<std::size_t>(row * made.raster.columns + column);
-      const survey::IndexPoint at = made.raster.chart.to_index(
-          {made.raster.strike0 + static_cast<double>(column), made.raster.dip0 + static_cast<double>(row), 0});
+      const survey::IndexPoint at =
+          made.raster.chart.to_index({made.raster.strike0 + static_cast<double>(column),
+                                      made.raster.dip0 + static_cast<double>(row), 0});
       const auto within = [](double x, double low, double high) { return x > low + 1e-6 && x < high - 1e-6; };
       if (!within(at.k, 5, 25)) continue;
       if (within(at.j, 5, 25)) {
