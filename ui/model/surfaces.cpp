@@ -361,6 +361,10 @@ std::optional<LiveRun> Surfaces::live_run() const {
   return live.faults.empty() ? std::nullopt : std::optional(std::move(live));
 }
 
+void Surfaces::store_live_run() {
+  if (const auto live = live_run()) store(state_->document.store(), *live);
+}
+
 void store(project::Project& project, const LiveRun& live) {
   project.register_statistics(tasks::stored_statistics());
   project.add_run(live.run, live.faults);

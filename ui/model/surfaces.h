@@ -82,6 +82,8 @@ class Surfaces final : public QObject {
   bool is_settled() const;
   // What is known now of the engine's volume, of those faults that are wholly fresh; nothing where nothing is known.
   std::optional<LiveRun> live_run() const;
+  // Keeps it in the document's project, at once. Throws what the project refuses.
+  void store_live_run();
 
  Q_SIGNALS:
   void surfaces_changed(const std::set<footwall::ui::Id>& faults);

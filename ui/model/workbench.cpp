@@ -58,7 +58,7 @@ Workbench::Workbench(project::Project opened, const EngineLink::Options& engine_
 Workbench::~Workbench() {
   if (document.read_only()) return;
   try {
-    if (const auto live = surfaces.live_run()) store(document.store(), *live);
+    surfaces.store_live_run();
   } catch (const Error& error) {
     log::warn("the live colours could not be stored: " + error.message());
   }

@@ -145,7 +145,7 @@ void LiveColoursTest::a_live_run_is_there_again_when_opened() {
     Coloured desk(sample, 1);
     QTRY_VERIFY_WITH_TIMEOUT(desk.is_fresh(), kPatience);
     known = desk.surfaces.numbers(desk.fault(), "variance")->values;
-    store(desk.document.store(), desk.surfaces.live_run().value());
+    desk.surfaces.store_live_run();
   }
   Document document(sample.open());
   Surfaces surfaces(document, nullptr);
