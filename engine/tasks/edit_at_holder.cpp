@@ -28,7 +28,8 @@ bool is_of_this_user(int socket) {
 EditAtHolder::EditAtHolder(const std::string& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  const Error silent(ErrorCode::kHeld, fmt::format("the program that holds the project does not answer at {}", path),
+  const Error silent(ErrorCode::kHeld,
+                     fmt::format("the program that holds the project does not answer at {}", path),
                      "close it there, or try again");
   if (path.size() >= sizeof address.sun_path) throw silent;
   std::memcpy(address.sun_path, path.data(), path.size());
@@ -67,7 +68,8 @@ nlohmann::json EditAtHolder::apply(std::string_view line, std::int64_t line_numb
   const auto error = reply.find("error");
   if (error == reply.end()) return reply;
   if (!error->is_object()) throw gone();
-  throw Error(error_code_from(error->value("code", "")), error->value("message", ""), error->value("hint", ""));
+  throw Error(error_code_from(error->value("code", "")), error->value("message", ""),
+              error->value("hint", ""));
 }
 
 nlohmann::json edit_failure(const Error& error) {

@@ -29,6 +29,8 @@ class FaceValues {
   void scale(const std::string& product, const std::string& factor, const std::string& other);
   // Of an answer that was computed before the surface was last set: faces that moved since are stale after all.
   void mark_stale_since_sent();
+  // What is not of the faces' places alone was computed from another volume.
+  void mark_all_stale() { stale_.assign(stale_.size(), 1); }
   bool is_known(const std::string& statistic) const { return find(statistic) != nullptr; }
   // Of faces with any value, whether one is stale; of all faces, whether one has none.
   bool any_stale() const;

@@ -58,9 +58,11 @@ tasks::TriangulateOptions options_of(const project::MeshRecord& mesh) {
 }
 
 // What the last run that has the fault says of it.
-std::optional<project::FaultRun> last_run_of(const project::Project& project, Id fault) {
+std::optional<project::FaultRun> last_run_of(const project::Project& project, Id fault,
+                                             const std::optional<std::string>& volume) {
   const auto runs = project.runs();
   for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
+    if (volume && run->volume_checksum != *volume) continue;
     const auto faults = project.run_faults(run->id);
     if (std::ranges::find(faults, fault) != faults.end()) return project.fault_statistics(run->id, fault);
   }
@@ -155,7 +157,7 @@ project::MeshRecord SurfaceWorker::mesh_for(const SurfaceRequest& request, MadeS
   if (request.stored || !request.options) former = project_.mesh(fault);
   made.options = request.options ? *request.options : former ? options_of(*former) : tasks::TriangulateOptions{};
   made.chart = request.chart.empty() && former ? former->chart : request.chart;
-  if (request.stored) made.run = last_run_of(project_, fault);
+  if (request.stored) made.run = last_run_of(project_, fault, request.volume);
   if (request.stored && former && former->revision == request.fault.revision && !project_.mesh_is_stale(fault)) {
     return std::move(*former);
   }

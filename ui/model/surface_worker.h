@@ -24,9 +24,10 @@ struct SurfaceRequest {
   project::Bytes chart;
   std::optional<tasks::TriangulateOptions> options;  // none: those of the stored mesh
   std::optional<double> velocity;
+  std::optional<std::string> volume;  // checksum of the volume that a run's numbers must be of; none: of any
   bool provisional = false;
   bool urgent = false;  // before those that are not
-  bool stored = false;  // the mesh of the project will do where it is fresh, with what the last run says of its faces
+  bool stored = false;  // the mesh of the project will do where it is fresh, with what the last run of the volume says of its faces
 };
 
 struct MadeSurface {

@@ -56,6 +56,7 @@ struct Surfaces::State {
   std::map<Id, Entry> entries;
   std::uint64_t last_request = 0;
   std::vector<project::StatisticRecord> statistics;
+  std::optional<std::string> volume;  // that the values are of: its checksum
   struct KeptRange {
     std::set<Id> faults;
     QString statistic;
@@ -95,10 +96,18 @@ struct Surfaces::State {
     request.chart = fault.record.chart.empty() ? entry.chart : fault.record.chart;
     if (entry.options) request.options = task_options(*entry.options);
     request.velocity = document.velocity();
+    request.volume = engine_volume();
     request.provisional = document.is_provisional(fault.record.id);
     request.urgent = urgent;
     request.stored = is_file || (stored && !request.provisional);  // a file's triangles are as they are
     worker->ask(std::move(request));
+  }
+
+  // Its checksum; nothing without an engine.
+  std::optional<std::string> engine_volume() const {
+    if (engine == nullptr) return std::nullopt;
+    const auto found = std::ranges::find(document.volumes(), engine->volume(), &project::VolumeRecord::id);
+    return found == document.volumes().end() ? std::nullopt : std::optional(found->checksum);
   }
 
   bool is_surface_file(const Fault& fault) const {
@@ -209,6 +218,7 @@ struct Surfaces::State {
     }
     entries.clear();
     kept_range.reset();
+    volume = engine_volume();
     for (const Fault& fault : document.faults()) {
       entries[fault.record.id].wants_run = true;
       ask(fault, entries[fault.record.id], false, true);
@@ -226,6 +236,23 @@ struct Surfaces::State {
       entry.wants_run = true;
       ask(fault, entry, false, true);
     }
+  }
+
+  void volume_changed() {
+    const auto former = std::exchange(volume, engine_volume());
+    if (former == volume) return;  // two rows may be of the same samples
+    std::set<Id> faults;
+    for (auto& [id, entry] : entries) {
+      const Fault* fault = document.fault(id);
+      if (fault == nullptr) continue;
+      entry.values.mark_all_stale();
+      entry.numbers.clear();
+      entry.wants_run = true;
+      ask(*fault, entry, false, true);
+      faults.insert(id);
+    }
+    kept_range.reset();
+    Q_EMIT self.numbers_changed(faults);
   }
 
   // Another velocity: what is known of the faces stays, areas and dips follow.
@@ -359,6 +386,10 @@ std::optional<LiveRun> Surfaces::live_run() const {
     }
   }
   return live.faults.empty() ? std::nullopt : std::optional(std::move(live));
+}
+
+void Surfaces::volume_changed() {
+  state_->volume_changed();
 }
 
 void Surfaces::store_live_run() {

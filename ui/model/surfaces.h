@@ -82,6 +82,8 @@ class Surfaces final : public QObject {
   bool is_settled() const;
   // What is known now of the engine's volume, of those faults that are wholly fresh; nothing where nothing is known.
   std::optional<LiveRun> live_run() const;
+  // The engine's volume is another now: what is known is of the one before, and stale but for what a run says.
+  void volume_changed();
   // Keeps it in the document's project, at once. Throws what the project refuses.
   void store_live_run();
 

@@ -48,10 +48,14 @@ Workbench::Workbench(project::Project opened, const EngineLink::Options& engine_
   if (stored) display.from_json(QJsonDocument::fromJson(QByteArray::fromStdString(*stored)).object());
   if (!stored && document.survey()) display.set_exaggeration(fitting_exaggeration(*document.survey()));
   if (display.sections().empty()) show_middle_sections(document, display);
-  QObject::connect(&display, &Display::samples_changed, &engine, [this] {
-    if (display.volume() != engine.volume()) engine.set_volume(display.volume());
+  const auto take_volume = [this] {
+    engine.set_volume(display.volume());
+    surfaces.volume_changed();
+  };
+  QObject::connect(&display, &Display::samples_changed, &engine, [this, take_volume] {
+    if (display.volume() != engine.volume()) take_volume();
   });
-  if (display.volume() != 0) engine.set_volume(display.volume());
+  if (display.volume() != 0) take_volume();
   if (engine_options.starts_at_once && display.volume() != 0) engine.start();
 }
 

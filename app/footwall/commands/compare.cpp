@@ -52,10 +52,10 @@ console::Output run(const Options& options, const JobContext& job) {
       "{} of {}, run {} minus run {}, on {} x {} cells of {:.4g} x {:.4g} m{}\n"
       "{} cells in both, {} in run {} alone, {} in run {} alone\n"
       "difference: mean {}, root mean square {}, largest {}{}\n",
-      made.statistic, made.fault, made.run_b.id, made.run_a.id, made.raster.columns, made.raster.rows, across, down,
-      made.assumed_velocity ? " (no velocity: 1 ms counts 1 m)" : "", made.both, made.only_a, made.run_a.id,
-      made.only_b, made.run_b.id, in_words(made.mean), in_words(made.rms), in_words(made.largest),
-      made.unit.empty() ? "" : " " + made.unit);
+      made.statistic, made.fault, made.run_b.id, made.run_a.id, made.raster.columns, made.raster.rows, across,
+      down, made.assumed_velocity ? " (no velocity: 1 ms counts 1 m)" : "", made.both, made.only_a,
+      made.run_a.id, made.only_b, made.run_b.id, in_words(made.mean), in_words(made.rms),
+      in_words(made.largest), made.unit.empty() ? "" : " " + made.unit);
   if (!options.csv.empty()) {
     tasks::write_csv(made, tasks::required_survey(project, "the comparison of runs"), options.csv);
     output.json["csv"] = options.csv;

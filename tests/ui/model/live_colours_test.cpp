@@ -6,7 +6,10 @@
 #include <csignal>
 
 #include "engine/service/client/engine_client.h"
+#include "engine/synthetic/registry.h"
+#include "engine/tasks/add_volume.h"
 #include "engine/tasks/extract_run.h"
+#include "engine/tasks/volume_sources.h"
 #include "ui/model/engine_link.h"
 #include "ui/model/surfaces.h"
 #include "ui/model/update_all.h"
@@ -44,6 +47,7 @@ class LiveColoursTest final : public QObject {
   void a_live_run_is_there_again_when_opened();
   void update_all_computes_and_keeps();
   void an_update_can_be_cancelled();
+  void numbers_of_another_volume_are_stale();
 };
 
 void LiveColoursTest::surfaces_are_made_without_an_engine() {
@@ -198,6 +202,33 @@ void LiveColoursTest::an_update_can_be_cancelled() {
   QVERIFY(another != job);
   bench.jobs.cancel(another);
   QTRY_COMPARE_WITH_TIMEOUT(ended.size(), 2, kPatience);
+}
+
+void LiveColoursTest::numbers_of_another_volume_are_stale() {
+  const SampleProject sample;
+  auto project = sample.open();
+  synthetic::Options options;
+  options.size = {48, 40, 64};
+  options.seed = 99;
+  const synthetic::FaultedSurvey made = synthetic::make_survey("faulted", options);
+  const project::VolumeRecord other =
+      tasks::add_volume(project, "another", tasks::synthetic_source(made, "another"), {});
+  Workbench bench(std::move(project), {.ranks = 1, .connection = {}});
+  const Id fault = bench.document.faults()[0].record.id;
+  QSignalSpy ended(&bench.jobs, &Jobs::finished);
+  start_update(bench);
+  QVERIFY(ended.wait(kPatience));
+  const auto before = bench.surfaces.numbers(fault, "variance")->values;
+  bench.display.set_volume(other.id);
+  QVERIFY(bench.surfaces.freshness(fault, "variance") != Freshness::kFresh);
+  start_update(bench);
+  QTRY_COMPARE_WITH_TIMEOUT(ended.size(), 2, kPatience);
+  QCOMPARE(ended[1][1].value<Jobs::State>(), Jobs::State::kDone);
+  QVERIFY(bench.surfaces.numbers(fault, "variance")->values != before);
+  const auto runs = bench.document.project().runs();  // a live one of each
+  QCOMPARE(runs.size(), std::size_t{2});
+  QCOMPARE(runs[1].volume, std::string("another"));
+  QCOMPARE(bench.document.project().fault_statistics(runs[0].id, fault).statistics.at("variance"), before);
 }
 
 static const RegisterTest<LiveColoursTest> kRegistered;
