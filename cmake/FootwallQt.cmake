@@ -73,3 +73,15 @@ function(footwall_ui_test NAME)
   set_tests_properties(ui_${NAME} PROPERTIES LABELS ui TIMEOUT ${ARG_TIMEOUT} SKIP_RETURN_CODE 77
     ENVIRONMENT_MODIFICATION PATH=path_list_prepend:${CMAKE_BINARY_DIR}/launcher)
 endfunction()
+
+# footwall_slow_ui_test(random_edits FACTOR 50)
+#
+# ui_<name> again, under the label slow, with FACTOR times the random cases (tests/rounds.h).
+function(footwall_slow_ui_test NAME)
+  cmake_parse_arguments(ARG "" "FACTOR" "" ${ARGN})
+  set(test slow_ui_${NAME})
+  add_test(NAME ${test} COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_SOURCE_DIR}/tests/ui/on_a_screen.py $<TARGET_FILE:ui_${NAME}_test>)
+  set_tests_properties(${test} PROPERTIES LABELS slow TIMEOUT 3600 SKIP_RETURN_CODE 77
+    ENVIRONMENT "FOOTWALL_TEST_FACTOR=${ARG_FACTOR};QTEST_FUNCTION_TIMEOUT=3600000"
+    ENVIRONMENT_MODIFICATION PATH=path_list_prepend:${CMAKE_BINARY_DIR}/launcher)
+endfunction()

@@ -79,8 +79,8 @@ HistorySize Project::trim_history(const std::string& before) {
   return dropped;
 }
 
-std::vector<HistoryStep> Project::history() const {
-  return detail::UndoLog(*state_->database).steps();
+std::vector<HistoryStep> Project::history(std::int64_t first) const {
+  return detail::UndoLog(*state_->database).steps(first);
 }
 
 }  // namespace footwall::project

@@ -129,7 +129,8 @@ class Project {
   // The step's name; nothing when there is no step (left).
   std::optional<std::string> undo();
   std::optional<std::string> redo();
-  std::vector<HistoryStep> history() const;  // oldest first
+  // Oldest first; those of this number and later ones.
+  std::vector<HistoryStep> history(std::int64_t first = 0) const;
   // Steps of the history and the bytes of what they hold; of those alone that trim_history(before) would
   // drop.
   HistorySize history_size(const std::optional<std::string>& before = {}) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "engine/tasks/triangulate.h"
@@ -25,6 +26,7 @@ Document::Document(project::Project project, QObject* parent) : QObject(parent),
   survey_ = project_.survey();
   velocity_ = stored_velocity(project_);
   volumes_ = project_.volumes();
+  history_ = project_.history();
   reload_interpretation();
 }
 
@@ -83,47 +85,74 @@ void Document::end_provisional() {
 bool Document::edit(const QString& name, const std::function<void(project::Interpretation&)>& change) {
   bool changed = false;
   try {
-    changed = project_.edit(name.toStdString(), change).changed;
+    const project::EditResult result = project_.edit(name.toStdString(), change);
+    changed = result.changed;
+    if (changed) {
+      while (!history_.empty() && history_.back().undone) history_.pop_back();
+      std::ranges::move(project_.history(result.step), std::back_inserter(history_));
+    }
   } catch (const Error& error) {
     report(error);
   }
   if (changed) {
-    reload_interpretation();
+    follow_change();
   } else {
     end_provisional();
   }
   return changed;
 }
 
-bool Document::step(const std::function<std::optional<std::string>()>& one) {
+bool Document::step(std::int64_t undos, std::int64_t redos) {
   bool stepped = false;
   try {
-    stepped = one().has_value();
+    for (; undos > 0 && take_back(); --undos) stepped = true;
+    for (; redos > 0 && bring_back(); --redos) stepped = true;
   } catch (const Error& error) {
     report(error);
   }
-  if (stepped) reload_interpretation();
+  if (stepped) follow_change();
   return stepped;
 }
 
+// The list kept here follows; it is read anew where it was not the one that the project has.
+bool Document::take_back() {
+  const std::optional<std::string> name = project_.undo();
+  if (!name) return false;
+  const auto last = std::find_if(history_.rbegin(), history_.rend(), [](const auto& step) { return !step.undone; });
+  if (last != history_.rend() && last->name == *name) {
+    last->undone = true;
+  } else {
+    history_ = project_.history();
+  }
+  return true;
+}
+
+bool Document::bring_back() {
+  const std::optional<std::string> name = project_.redo();
+  if (!name) return false;
+  const auto done = std::find_if(history_.rbegin(), history_.rend(), [](const auto& step) { return !step.undone; });
+  const auto first = done.base();  // the step after it
+  if (first != history_.end() && first->name == *name) {
+    first->undone = false;
+  } else {
+    history_ = project_.history();
+  }
+  return true;
+}
+
 bool Document::undo() {
-  return step([this] { return project_.undo(); });
+  return step(1, 0);
 }
 
 bool Document::redo() {
-  return step([this] { return project_.redo(); });
+  return step(0, 1);
 }
 
 bool Document::go_to_step(Id id) {
   const auto is_later = [&](const project::HistoryStep& one) { return one.id > id; };
   const auto undos = std::ranges::count_if(history_, [&](const auto& one) { return is_later(one) && !one.undone; });
   const auto redos = std::ranges::count_if(history_, [&](const auto& one) { return !is_later(one) && one.undone; });
-  return step([&, this]() -> std::optional<std::string> {
-    std::optional<std::string> last;
-    for (std::int64_t n = 0; n < undos; ++n) last = project_.undo();
-    for (std::int64_t n = 0; n < redos; ++n) last = project_.redo();
-    return last;
-  });
+  return step(undos, redos);
 }
 
 void Document::set_velocity(double velocity) {
@@ -137,15 +166,18 @@ void Document::set_velocity(double velocity) {
 
 void Document::refresh(std::map<Id, Fault> already) {
   try {
+    // Views read their samples again after reload_volumes().
     const auto same = [](const project::VolumeRecord& a, const project::VolumeRecord& b) {
       return a.id == b.id && a.name == b.name && a.file == b.file && a.bytes == b.bytes && a.checksum == b.checksum &&
              a.role == b.role;
     };
-    if (!std::ranges::equal(volumes_, project_.volumes(), same) || stored_velocity(project_) != velocity_ ||
+    if (!std::ranges::equal(project_.volumes(), volumes_, same) || stored_velocity(project_) != velocity_ ||
         survey_ != project_.survey()) {
       reload_volumes();
     }
+    history_ = project_.history();
     reload_interpretation(std::move(already));
+    Q_EMIT history_changed();
   } catch (const Error& error) {
     report(error);
   }
@@ -153,10 +185,11 @@ void Document::refresh(std::map<Id, Fault> already) {
 
 void Document::refresh_interpretation() {
   try {
-    reload_interpretation();
+    history_ = project_.history();
   } catch (const Error& error) {
     report(error);
   }
+  follow_change();
 }
 
 void Document::reload_volumes() {
@@ -172,47 +205,48 @@ void Document::reload_volumes() {
   }
 }
 
-void Document::find_again(const Fault& fault) {
-  for (const survey::Pillar& pillar : fault.pillars) {
-    fault_of_pillar_[pillar.id] = fault.record.id;
-    for (const survey::PillarNode& node : pillar.nodes) fault_of_node_[node.id] = fault.record.id;
-  }
-}
-
-void Document::forget(const Fault& fault) {
-  for (const survey::Pillar& pillar : fault.pillars) {
-    fault_of_pillar_.erase(pillar.id);
-    for (const survey::PillarNode& node : pillar.nodes) fault_of_node_.erase(node.id);
-  }
-}
-
-// Reads the pillars of those faults alone whose revision differs from what is kept.
+// Reads the pillars of those faults alone whose revision differs from what is kept; nothing kept changes before all
+// of that is read.
 void Document::reload_interpretation(std::map<Id, Fault> already) {
+  std::vector<project::FaultRecord> records = project_.faults();
+  std::map<Id, std::vector<survey::Pillar>> read;
+  for (const project::FaultRecord& record : records) {
+    const Fault* known = fault(record.id);
+    if (known != nullptr && known->record.revision == record.revision) continue;
+    const auto given = already.find(record.id);
+    const bool is_read = given != already.end() && given->second.record.revision == record.revision;
+    read[record.id] = is_read ? std::move(given->second.pillars) : project_.pillars(record.id);
+  }
+
+  // 1. What differs, and whose pillars and nodes are no longer whose they were.
   std::set<Id> reshaped;
   for (const auto& [fault, pillars] : std::exchange(provisional_, {})) reshaped.insert(fault);
-  std::vector<Fault> now;
-  std::set<Id> gone, read;
-  for (const Fault& fault : faults_) gone.insert(fault.record.id);
-  for (project::FaultRecord& record : project_.faults()) {
-    gone.erase(record.id);
-    Fault fault;
-    const auto known = place_of_fault_.find(record.id);
-    const auto given = already.find(record.id);
-    if (known != place_of_fault_.end() && faults_[known->second].record.revision == record.revision) {
-      fault.pillars = std::move(faults_[known->second].pillars);
-    } else if (given != already.end() && given->second.record.revision == record.revision) {
-      fault.pillars = std::move(given->second.pillars);
-      read.insert(record.id);
-    } else {
-      fault.pillars = project_.pillars(record.id);
-      read.insert(record.id);
+  for (const auto& [fault, pillars] : read) reshaped.insert(fault);
+  std::set<Id> stays;
+  for (const project::FaultRecord& record : records) stays.insert(record.id);
+  for (const Fault& before : faults_) {
+    const bool is_gone = !stays.contains(before.record.id);
+    if (is_gone) reshaped.insert(before.record.id);
+    if (!is_gone && !read.contains(before.record.id)) continue;
+    for (const survey::Pillar& pillar : before.pillars) {
+      fault_of_pillar_.erase(pillar.id);
+      for (const survey::PillarNode& node : pillar.nodes) fault_of_node_.erase(node.id);
     }
-    fault.record = std::move(record);
-    now.push_back(std::move(fault));
   }
-  // All of them first: a pillar may have gone over from one to another.
-  for (const Fault& fault : faults_) {
-    if (gone.contains(fault.record.id) || read.contains(fault.record.id)) forget(fault);
+  for (const auto& [fault, pillars] : read) {
+    for (const survey::Pillar& pillar : pillars) {
+      fault_of_pillar_[pillar.id] = fault;
+      for (const survey::PillarNode& node : pillar.nodes) fault_of_node_[node.id] = fault;
+    }
+  }
+
+  // 2. The faults as they are now.
+  std::vector<Fault> now;
+  for (project::FaultRecord& record : records) {
+    const auto found = read.find(record.id);
+    std::vector<survey::Pillar>& pillars =
+        found != read.end() ? found->second : faults_[place_of_fault_.at(record.id)].pillars;
+    now.push_back({std::move(record), std::move(pillars)});
   }
   const auto same_facts = [](const Fault& a, const Fault& b) {
     return a.record.id == b.record.id && a.record.name == b.record.name && a.record.colour == b.record.colour &&
@@ -222,15 +256,18 @@ void Document::reload_interpretation(std::map<Id, Fault> already) {
   const bool facts_differ = !std::ranges::equal(faults_, now, same_facts);
   faults_ = std::move(now);
   place_of_fault_.clear();
-  for (std::size_t place = 0; place < faults_.size(); ++place) {
-    place_of_fault_[faults_[place].record.id] = place;
-    if (read.contains(faults_[place].record.id)) find_again(faults_[place]);
-  }
-  reshaped.merge(gone);
-  reshaped.merge(read);
-  history_ = project_.history();
+  for (std::size_t place = 0; place < faults_.size(); ++place) place_of_fault_[faults_[place].record.id] = place;
   if (facts_differ) Q_EMIT faults_changed();
   if (!reshaped.empty()) Q_EMIT shapes_changed(reshaped);
+}
+
+// After a change that is on disk: the rest of the window follows it.
+void Document::follow_change() {
+  try {
+    reload_interpretation();
+  } catch (const Error& error) {
+    report(error);
+  }
   Q_EMIT history_changed();
 }
 

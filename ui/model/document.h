@@ -68,7 +68,8 @@ class Document final : public QObject {
   bool edit(const QString& name, const std::function<void(project::Interpretation&)>& change);
   bool undo();
   bool redo();
-  // To the state after the step of this number (0: before the first), by as many undos or redos as it takes.
+  // To the state after the step of this number (0: before the first), by as many undos or redos as it takes. Where one
+  // of them is refused, those before it stay done.
   bool go_to_step(Id step);
 
   // Reads again what others may have changed: for a project that somebody else writes, or a job of this program
@@ -98,11 +99,13 @@ class Document final : public QObject {
   void reload_volumes();
 
  private:
+  // Work in proportion to what differs, whatever the length of the history and the size of the faults that stay.
   void reload_interpretation(std::map<Id, Fault> already = {});
-  void find_again(const Fault& fault);
-  void forget(const Fault& fault);
+  void follow_change();
   void report(const Error& error);
-  bool step(const std::function<std::optional<std::string>()>& one);
+  bool step(std::int64_t undos, std::int64_t redos);
+  bool take_back();
+  bool bring_back();
 
   project::Project project_;
   std::optional<survey::Geometry> survey_;

@@ -18,6 +18,7 @@ struct EngineLink::Private {
   QString text;
   Id volume = 0;
   std::uint64_t answered = 0;
+  QDateTime answered_at = {};
   // Last: their threads end before the rest goes.
   std::unique_ptr<LiveColours> colours = {};
   std::unique_ptr<PictureThread> pictures = {};
@@ -50,6 +51,7 @@ EngineLink::EngineLink(Document& document, const Options& options, QObject* pare
   events.numbers = [this, here](EngineNumbers numbers) {
     here([this, numbers = std::move(numbers)] {
       private_->answered = std::max(private_->answered, numbers.edit);
+      if (!numbers.faults.empty()) private_->answered_at = QDateTime::currentDateTime();
       Q_EMIT this->numbers(numbers);
     });
   };
@@ -117,6 +119,10 @@ Id EngineLink::volume() const {
 
 std::uint64_t EngineLink::answered() const {
   return private_->answered;
+}
+
+QDateTime EngineLink::answered_at() const {
+  return private_->answered_at;
 }
 
 std::uint64_t EngineLink::put_fault(const std::shared_ptr<const FaultSurface>& surface) {

@@ -1,6 +1,7 @@
 // The window's line to the engine: a local one that is started when first needed, or one that runs already
 // (--engine). Everything that waits does so on a thread of the link; answers are signals in the window's thread.
 #pragma once
+#include <QDateTime>
 #include <QImage>
 #include <QObject>
 #include <QString>
@@ -21,7 +22,8 @@ struct FaultSurface;
 
 // Statistics of faces by name, as one answer of the engine brings them. Entry n of each is of face n.
 struct EngineNumbers {
-  std::uint64_t edit = 0;  // the newest edit that they know of
+  std::uint64_t edit = 0;  // the newest edit that they know of, with all before it
+  std::map<Id, std::uint64_t> known;  // of each fault here, the edit that put it as it was computed
   std::vector<std::int64_t> faults, panels;
   std::vector<std::int32_t> face_numbers;
   std::map<std::string, std::vector<double>> statistics;
@@ -80,6 +82,8 @@ class EngineLink final : public QObject {
   Id volume() const;
   // The newest edit that numbers have come for: all up to it are answered.
   std::uint64_t answered() const;
+  // When numbers came last; invalid where none have come.
+  QDateTime answered_at() const;
   // The faces of a fault are these from now on; numbers() of those that changed follow, under the number returned or a
   // later one. Newest wins. While there is no engine the newest surfaces are kept for when there is one.
   std::uint64_t put_fault(const std::shared_ptr<const FaultSurface>& surface);

@@ -8,6 +8,7 @@ namespace footwall::ui {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uint64_t kNotTold = std::numeric_limits<std::uint64_t>::max();
 constexpr double kFewestSamples = 30;  // below, a face is left out of rankings
 
 }  // namespace
@@ -15,20 +16,20 @@ constexpr double kFewestSamples = 30;  // below, a face is left out of rankings
 void FaceValues::set_surface(std::shared_ptr<const FaultSurface> surface) {
   const std::shared_ptr<const FaultSurface> before = std::exchange(surface_, std::move(surface));
   const auto former_values = std::exchange(values_, {});
-  const auto former_stale = std::exchange(stale_, {});
+  const auto former_computed = std::exchange(computed_at_, {});
+  const auto former_moved = std::exchange(moved_under_, {});
   if (surface_ == nullptr) return;
   const std::size_t count = surface_->faces.size();
-  stale_.assign(count, 1);
-  moved_.assign(count, 1);
+  computed_at_.assign(count, std::nullopt);
+  moved_under_.assign(count, kNotTold);
   if (before == nullptr) return;
-  std::vector<std::size_t> from(count, former_stale.size());
+  std::vector<std::size_t> from(count, former_computed.size());
   for (std::size_t f = 0; f < count; ++f) {
     const std::size_t place = before->place_of(surface_->faces[f].panel, surface_->faces[f].n, f);
     if (place == before->faces.size()) continue;
     from[f] = place;
-    const bool stands = before->lattice[place] == surface_->lattice[f];
-    stale_[f] = stands ? former_stale[place] : std::uint8_t{1};
-    moved_[f] = stands ? 0 : 1;
+    computed_at_[f] = former_computed[place];
+    if (before->lattice[place] == surface_->lattice[f]) moved_under_[f] = former_moved[place];
   }
   for (const auto& [statistic, old] : former_values) {
     std::vector<double>& now = values_[statistic];
@@ -48,21 +49,21 @@ const std::vector<double>* FaceValues::find(const std::string& statistic) const 
 
 std::vector<double>& FaceValues::column(const std::string& statistic) {
   std::vector<double>& values = values_[statistic];
-  values.resize(stale_.size(), kUnknown);
+  values.resize(computed_at_.size(), kUnknown);
   return values;
 }
 
 void FaceValues::set(std::span<const Id> panels, std::span<const std::int32_t> numbers,
                      std::span<const survey::LatticeTriangle> corners,
-                     const std::map<std::string, std::span<const double>>& columns) {
+                     const std::map<std::string, std::vector<double>>& columns) {
   if (surface_ == nullptr) return;
   std::vector<std::size_t> places(panels.size());
   std::size_t guess = 0;
   for (std::size_t n = 0; n < panels.size(); ++n) {
     const std::size_t place = places[n] = surface_->place_of(panels[n], numbers[n], guess);
-    if (place == stale_.size()) continue;
+    if (place == computed_at_.size()) continue;
     guess = place + 1;
-    stale_[place] = !corners.empty() && corners[n] != surface_->lattice[place] ? 1 : 0;
+    computed_at_[place] = corners[n];
   }
   for (const auto& [statistic, values] : columns) {
     if (is_geometry(statistic)) continue;
@@ -73,6 +74,31 @@ void FaceValues::set(std::span<const Id> panels, std::span<const std::int32_t> n
   }
 }
 
+void FaceValues::take(const std::vector<Id>& panels, const std::vector<std::int32_t>& numbers,
+                      const std::map<std::string, std::vector<double>>& statistics,
+                      const std::vector<std::size_t>& rows, std::uint64_t edit) {
+  std::vector<std::pair<std::size_t, std::size_t>> placed;  // row, place
+  if (surface_ == nullptr) return;
+  placed.reserve(rows.size());
+  std::size_t guess = 0;
+  for (const std::size_t row : rows) {
+    const std::size_t place = surface_->place_of(panels[row], numbers[row], guess);
+    if (place == computed_at_.size()) continue;
+    guess = place + 1;
+    placed.emplace_back(row, place);
+    computed_at_[place] = moved_under_[place] <= edit ? std::optional(surface_->lattice[place]) : std::nullopt;
+  }
+  if (placed.empty()) return;
+  for (const auto& [statistic, values] : statistics) {
+    std::vector<double>& into = column(statistic);
+    for (const auto& [row, place] : placed) into[place] = values[row];
+  }
+}
+
+void FaceValues::tell_moved(std::uint64_t edit) {
+  std::ranges::replace(moved_under_, kNotTold, edit);
+}
+
 void FaceValues::scale(const std::string& product, const std::string& factor, const std::string& other) {
   const std::vector<double>* a = find(factor);
   const std::vector<double>* b = find(other);
@@ -81,12 +107,15 @@ void FaceValues::scale(const std::string& product, const std::string& factor, co
   for (std::size_t f = 0; f < into.size(); ++f) into[f] = (*a)[f] * (*b)[f];
 }
 
-void FaceValues::mark_stale_since_sent() {
-  for (std::size_t f = 0; f < stale_.size(); ++f) stale_[f] |= moved_[f];
+bool FaceValues::is_stale(std::size_t face) const {
+  return computed_at_[face] != surface_->lattice[face];
 }
 
 bool FaceValues::any_stale() const {
-  return std::ranges::any_of(stale_, [](std::uint8_t stale) { return stale != 0; });
+  for (std::size_t f = 0; f < computed_at_.size(); ++f) {
+    if (is_stale(f)) return true;
+  }
+  return false;
 }
 
 std::shared_ptr<const FaceNumbers> FaceValues::numbers(const std::string& statistic) const {
@@ -94,11 +123,14 @@ std::shared_ptr<const FaceNumbers> FaceValues::numbers(const std::string& statis
   if (values == nullptr) return nullptr;
   auto numbers = std::make_shared<FaceNumbers>();
   numbers->values = *values;
-  numbers->stale = stale_;
-  if (is_geometry(statistic)) numbers->stale.assign(stale_.size(), 0);
-  numbers->hatched.assign(stale_.size(), 0);
+  const std::size_t count = computed_at_.size();
+  numbers->stale.assign(count, 0);
+  if (!is_geometry(statistic)) {
+    for (std::size_t f = 0; f < count; ++f) numbers->stale[f] = is_stale(f) ? 1 : 0;
+  }
+  numbers->hatched.assign(count, 0);
   if (const std::vector<double>* counts = find("count")) {
-    for (std::size_t f = 0; f < stale_.size(); ++f) numbers->hatched[f] = (*counts)[f] < kFewestSamples ? 1 : 0;
+    for (std::size_t f = 0; f < count; ++f) numbers->hatched[f] = (*counts)[f] < kFewestSamples ? 1 : 0;
   }
   return numbers;
 }

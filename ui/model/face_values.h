@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,35 +17,42 @@ class FaceValues {
  public:
   // The surface that the values are of from now on.
   void set_surface(std::shared_ptr<const FaultSurface> surface);
-  // Values of faces by their names, one of each column a face; they are good for a face as it stands where its entry in
-  // `corners` is its own, or where there are no corners. Names that the surface does not have are passed over.
+  // Values of faces by their names, one of each column a face, computed where their corners stood there. Names that the
+  // surface does not have are passed over.
   void set(std::span<const Id> panels, std::span<const std::int32_t> numbers,
            std::span<const survey::LatticeTriangle> corners,
-           const std::map<std::string, std::span<const double>>& columns);
+           const std::map<std::string, std::vector<double>>& columns);
+  // Of many faces at once, as an engine answers: row r of all is of face (panels[r], numbers[r]), computed as the face
+  // stood under this edit. Takes the rows named.
+  void take(const std::vector<Id>& panels, const std::vector<std::int32_t>& numbers,
+            const std::map<std::string, std::vector<double>>& statistics, const std::vector<std::size_t>& rows,
+            std::uint64_t edit);
+  // The faces that moved when the surface was last set moved under this edit.
+  void tell_moved(std::uint64_t edit);
   // What follows from the faces' places alone (FaultSurface::geometry); never stale.
   bool is_geometry(const std::string& statistic) const {
     return surface_ != nullptr && surface_->geometry.contains(statistic);
   }
   // product = factor * other, face by face.
   void scale(const std::string& product, const std::string& factor, const std::string& other);
-  // Of an answer that was computed before the surface was last set: faces that moved since are stale after all.
-  void mark_stale_since_sent();
   // What is not of the faces' places alone was computed from another volume.
-  void mark_all_stale() { stale_.assign(stale_.size(), 1); }
+  void mark_all_stale() { computed_at_.assign(computed_at_.size(), std::nullopt); }
   bool is_known(const std::string& statistic) const { return find(statistic) != nullptr; }
-  // Of faces with any value, whether one is stale; of all faces, whether one has none.
+  // Whether a face has no value, or that of another place than it has now.
   bool any_stale() const;
   // One value a face; null where nothing is known of the statistic.
   const std::vector<double>* find(const std::string& statistic) const;
   std::shared_ptr<const FaceNumbers> numbers(const std::string& statistic) const;
 
  private:
+  bool is_stale(std::size_t face) const;
   std::vector<double>& column(const std::string& statistic);
 
   std::shared_ptr<const FaultSurface> surface_;
   std::map<std::string, std::vector<double>> values_;
-  std::vector<std::uint8_t> stale_;
-  std::vector<std::uint8_t> moved_;  // by the last set_surface()
+  // Where each face stood when its values were computed; nothing where that is not known.
+  std::vector<std::optional<survey::LatticeTriangle>> computed_at_;
+  std::vector<std::uint64_t> moved_under_;  // the edit that moved each face last
 };
 
 }  // namespace footwall::ui

@@ -22,7 +22,13 @@ class HistoryList final : public QAbstractListModel {
   int rowCount(const QModelIndex& parent = {}) const override;
   QVariant data(const QModelIndex& index, int role) const override;
 
+ Q_SIGNALS:
+  // After each change of the history.
+  void current_changed();
+
  private:
+  void follow();
+
   Document& document_;
   std::vector<project::HistoryStep> steps_;
 };

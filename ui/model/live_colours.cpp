@@ -54,7 +54,11 @@ struct LiveColours::Session {
   std::uint64_t sent = 0;      // the newest edit told
   std::uint64_t answered = 0;  // guarded by mutex_
   std::uint64_t engine_edit = 0;
-  std::map<std::uint64_t, std::uint64_t> ours;  // the engine's number of an edit -> ours; guarded by mutex_
+  // Guarded by mutex_, by the engine's number of an edit: our number where it told all there was, and the faults that it
+  // told with our number of each.
+  std::map<std::uint64_t, std::uint64_t> ours;
+  std::map<std::uint64_t, std::map<Id, std::uint64_t>> batches;
+  std::map<Id, std::uint64_t> known;  // of what was answered, our number of each fault
 };
 
 LiveColours::LiveColours(std::optional<service::Connection> connection, int ranks, Events events)
@@ -99,9 +103,9 @@ std::uint64_t LiveColours::put(const std::shared_ptr<const FaultSurface>& surfac
   std::uint64_t edit = 0;
   {
     const std::scoped_lock lock(mutex_);
-    surfaces_[surface->fault] = surface;
-    dirty_.insert(surface->fault);
     edit = ++edit_;
+    surfaces_[surface->fault] = {surface, edit};
+    dirty_.insert(surface->fault);
   }
   wake_.notify_all();
   return edit;
@@ -146,7 +150,14 @@ void LiveColours::work() {
       }
       served = true;
       say(EngineLink::State::kReady, fmt::format("{} rank{}", ranks, ranks == 1 ? "" : "s"));
-      serve(client);
+      try {
+        serve(client);
+      } catch (const Error& error) {
+        forget_connection();
+        // Dead, or so it seems: it is started again unless the local engine gives up.
+        if (error.code() == ErrorCode::kEngine && !given_) say(EngineLink::State::kStarting);
+        throw;
+      }
     };
     try {
       say(EngineLink::State::kStarting);
@@ -166,8 +177,9 @@ void LiveColours::work() {
       forget_connection();
       lock.lock();
       const bool told_to = ends_ || !wanted_;
-      // An engine that had served and died is started again; LocalEngine gives up after three deaths in a minute.
-      const bool again = !told_to && !given_ && served && error.code() == ErrorCode::kEngine;
+      // LocalEngine starts one that died again, and gives up after three deaths in a minute. One that still runs, but broke
+      // the connection, is asked once more.
+      const bool again = !told_to && served && local != nullptr && local->is_running() && error.code() == ErrorCode::kEngine;
       if (!told_to && !again) wanted_ = false;
       lock.unlock();
       if (again) continue;
@@ -220,6 +232,11 @@ void LiveColours::serve(service::EngineClient& client) {
         const auto found = session->ours.upper_bound(reply.edit());
         numbers.edit = found == session->ours.begin() ? 0 : std::prev(found)->second;
         session->ours.erase(session->ours.begin(), found == session->ours.begin() ? found : std::prev(found));
+        while (!session->batches.empty() && session->batches.begin()->first <= reply.edit()) {
+          for (const auto& [fault, edit] : session->batches.begin()->second) session->known[fault] = edit;
+          session->batches.erase(session->batches.begin());
+        }
+        for (const Id fault : numbers.faults) numbers.known[fault] = session->known[fault];
       }
       if (reply.has_failure()) events_.failed(reply.failure().message(), reply.failure().hint());
       events_.numbers(std::move(numbers));
@@ -241,12 +258,14 @@ void LiveColours::serve(service::EngineClient& client) {
       if (ends_ || !wanted_ || volume_ != volume) break;
       v1::EditBatch batch;
       std::size_t faces = 0;
+      std::map<Id, std::uint64_t> told_now;
       while (!dirty_.empty() && faces < kFacesInBatch) {
         const Id fault = *dirty_.begin();
         dirty_.erase(dirty_.begin());
         const auto now = surfaces_.find(fault);
         auto& told = session->told[fault];
-        const auto next = now == surfaces_.end() ? nullptr : now->second;
+        const auto next = now == surfaces_.end() ? nullptr : now->second.surface;
+        if (next != nullptr) told_now[fault] = now->second.edit;
         faces += append_edits(fault, told.get(), next.get(), batch);
         told = next;
       }
@@ -262,6 +281,7 @@ void LiveColours::serve(service::EngineClient& client) {
       batch.set_edit(++session->engine_edit);
       session->sent = batch.edit();
       if (mine != 0) session->ours[batch.edit()] = mine;
+      session->batches[batch.edit()] = std::move(told_now);
       lock.unlock();
       live->send(batch);
       lock.lock();

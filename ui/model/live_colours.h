@@ -75,7 +75,11 @@ class LiveColours {
   bool ends_ = false;
   bool wanted_ = false;  // the engine is to run
   std::optional<EngineVolume> volume_;
-  std::map<Id, std::shared_ptr<const FaultSurface>> surfaces_;
+  struct Put {
+    std::shared_ptr<const FaultSurface> surface;
+    std::uint64_t edit = 0;
+  };
+  std::map<Id, Put> surfaces_;
   std::set<Id> dirty_;  // to be told; those not among surfaces_ are to go
   std::uint64_t edit_ = 0;
   std::optional<service::Connection> reached_;

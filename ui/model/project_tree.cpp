@@ -13,7 +13,7 @@ namespace footwall::ui {
 namespace {
 
 QString dims_text(const std::array<std::int64_t, 3>& dims) {
-  if (dims[0] == dims[1] && dims[1] == dims[2]) return QStringLiteral("%1³").arg(dims[0]);
+  if (dims[0] == dims[1] && dims[1] == dims[2]) return QString::number(dims[0]) + QChar(0x00b3);
   return QStringLiteral("%1 × %2 × %3").arg(dims[0]).arg(dims[1]).arg(dims[2]);
 }
 

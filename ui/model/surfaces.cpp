@@ -23,13 +23,6 @@ pillars::Options pillar_options(const tasks::TriangulateOptions& options) {
   return {options.detail, options.max_edge, options.tie};
 }
 
-std::map<std::string, std::span<const double>> columns_of(const std::map<std::string, std::vector<double>>& values,
-                                                          std::size_t from, std::size_t count) {
-  std::map<std::string, std::span<const double>> columns;
-  for (const auto& [statistic, column] : values) columns[statistic] = std::span(column).subspan(from, count);
-  return columns;
-}
-
 }  // namespace
 
 struct Surfaces::State {
@@ -147,6 +140,7 @@ struct Surfaces::State {
     if (engine == nullptr || fault == 0) return;
     if (entry.surface != nullptr) {
       entry.edit = engine->put_fault(entry.surface);
+      entry.values.tell_moved(entry.edit);
     } else {
       engine->remove_fault(fault);
       entry.edit = 0;
@@ -156,34 +150,27 @@ struct Surfaces::State {
   // ---- numbers ----
 
   void take_run(const project::FaultRun& run, Entry& entry) {
-    entry.values.set(run.panels, run.numbers, run.lattice, columns_of(run.statistics, 0, run.panels.size()));
+    entry.values.set(run.panels, run.numbers, run.lattice, run.statistics);
     entry.values.scale("offset", "offset_voxels", "metres_along_normal");
     entry.numbers.clear();
   }
 
   void take_answer(const EngineNumbers& answer) {
+    std::map<Id, std::vector<std::size_t>> rows;
+    for (std::size_t n = 0; n < answer.faults.size(); ++n) rows[answer.faults[n]].push_back(n);
     std::set<Id> changed;
-    const std::span panels(answer.panels);
-    const std::span numbers(answer.face_numbers);
-    for (std::size_t from = 0; from < answer.faults.size();) {
-      const Id fault = answer.faults[from];
-      std::size_t end = from;
-      while (end < answer.faults.size() && answer.faults[end] == fault) ++end;
+    for (const auto& [fault, of_fault] : rows) {
       changed.insert(fault);
-      if (const auto found = entries.find(fault); found != entries.end()) {
-        found->second.values.set(panels.subspan(from, end - from), numbers.subspan(from, end - from), {},
-                                 columns_of(answer.statistics, from, end - from));
-      }
-      from = end;
+      const auto found = entries.find(fault);
+      const auto known = answer.known.find(fault);
+      if (found == entries.end() || known == answer.known.end()) continue;
+      found->second.values.take(answer.panels, answer.face_numbers, answer.statistics, of_fault, known->second);
     }
     for (const Id fault : changed) {
       const auto found = entries.find(fault);
       if (found == entries.end()) continue;
-      Entry& entry = found->second;
-      entry.values.scale("offset", "offset_voxels", "metres_along_normal");
-      entry.numbers.clear();
-      // A surface that was put later than this answer has moved on: its moved faces are stale again.
-      if (entry.edit > answer.edit) entry.values.mark_stale_since_sent();
+      found->second.values.scale("offset", "offset_voxels", "metres_along_normal");
+      found->second.numbers.clear();
     }
     if (!document_is_provisional()) kept_range.reset();
     Q_EMIT self.numbers_changed(changed);

@@ -56,10 +56,10 @@ HistoryPanel::HistoryPanel(Document& document, QWidget* parent) : QListView(pare
   setMouseTracking(true);
   setEditTriggers(QAbstractItemView::NoEditTriggers);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  // Later: going there makes the list anew.
+  // Later: going there changes the list.
   connect(this, &QListView::clicked, this, &HistoryPanel::go_to, Qt::QueuedConnection);
   connect(this, &QListView::activated, this, &HistoryPanel::go_to, Qt::QueuedConnection);
-  connect(list_, &HistoryList::modelReset, this, &HistoryPanel::show_current);
+  connect(list_, &HistoryList::current_changed, this, &HistoryPanel::show_current);
   show_current();
 }
 

@@ -252,7 +252,10 @@ void MainWindow::show_lasting_banners(const QString& held) {
                            .buttons = {{tr("Try again"), [this, path] { open_project(path); }}}});
     watcher_ = new QFileSystemWatcher({path}, this);
     if (QFileInfo::exists(path + QStringLiteral("-wal"))) watcher_->addPath(path + QStringLiteral("-wal"));
-    connect(watcher_, &QFileSystemWatcher::fileChanged, follow_, qOverload<>(&QTimer::start));
+    // Started once: somebody who edits without a pause would put it off for ever.
+    connect(watcher_, &QFileSystemWatcher::fileChanged, follow_, [this] {
+      if (!follow_->isActive()) follow_->start();
+    });
   }
   const std::vector<std::string> notices = document.project().notices();
   for (std::size_t n = 0; n < notices.size(); ++n) {
@@ -309,11 +312,14 @@ void MainWindow::show_engine_banner() {
   if (!workbench_ || workbench_->engine.state() != EngineLink::State::kLost) {
     return banners_->remove(QStringLiteral("engine"));
   }
+  const QDateTime last = workbench_->engine.answered_at();
   banners_->show_banner(
       QStringLiteral("engine"),
       {.kind = BannerArea::Kind::kWarning,
-       .text =
-           tr("Engine %1. Colours are as of the last answer.").arg(workbench_->engine.state_text()),
+       .text = tr("Engine %1.").arg(workbench_->engine.state_text()),
+       .hint = last.isValid() ? tr("colours are from %1; faults can be edited all the same")
+                                    .arg(last.toString(QStringLiteral("HH:mm")))
+                              : tr("there are no live colours; faults can be edited all the same"),
        .buttons = {{tr("Restart"), [this] {
                       if (workbench_) workbench_->engine.start();
                     }}}});

@@ -79,11 +79,31 @@ void UndoLog::check(const Bytes& changeset) const {
 }
 
 std::int64_t UndoLog::add(const std::string& name, const Bytes& changeset) {
-  Query(database_, "DELETE FROM edit WHERE undone = 1").run();
+  if (const std::int64_t undone = first_undone(); undone != 0) {
+    Query(database_, "DELETE FROM edit WHERE id >= ?", undone).run();
+  }
   Query(database_, "INSERT INTO edit(name, made, undone, barrier, changeset) VALUES(?, ?, 0, 0, ?)", name,
         now_text(), changeset)
       .run();
   return database_.integer("SELECT last_insert_rowid()");
+}
+
+// Undone steps are the last ones, so that halving finds where they begin: looking through all of them would
+// make each step slower than the one before it.
+std::int64_t UndoLog::first_undone() const {
+  const auto is_undone = [this](std::int64_t from) {
+    Query row(database_, "SELECT undone FROM edit WHERE id >= ? ORDER BY id LIMIT 1", from);
+    return row.next() && row.integer(0) != 0;
+  };
+  std::int64_t low = 0;  // some id from which on the next step is not undone, or 0
+  std::int64_t high = database_.integer("SELECT coalesce(max(id), 0) FROM edit");
+  if (high <= 0 || !is_undone(high)) return 0;
+  while (high - low > 1) {
+    const std::int64_t middle = low + (high - low) / 2;
+    (is_undone(middle) ? high : low) = middle;
+  }
+  Query row(database_, "SELECT id FROM edit WHERE id >= ? ORDER BY id LIMIT 1", high);
+  return row.next() ? row.integer(0) : 0;
 }
 
 std::optional<std::string> UndoLog::undo() {
@@ -91,8 +111,10 @@ std::optional<std::string> UndoLog::undo() {
   std::string name;
   Bytes changeset;
   {
+    const std::int64_t undone = first_undone();
     Query row(database_,
-              "SELECT id, name, barrier, changeset FROM edit WHERE undone = 0 ORDER BY id DESC LIMIT 1");
+              "SELECT id, name, barrier, changeset FROM edit WHERE id < ? ORDER BY id DESC LIMIT 1",
+              undone == 0 ? std::numeric_limits<std::int64_t>::max() : undone);
     if (!row.next() || row.integer(2) != 0) return std::nullopt;
     id = row.integer(0);
     name = row.text(1);
@@ -109,7 +131,7 @@ std::optional<std::string> UndoLog::redo() {
   std::string name;
   Bytes changeset;
   {
-    Query row(database_, "SELECT id, name, changeset FROM edit WHERE undone = 1 ORDER BY id LIMIT 1");
+    Query row(database_, "SELECT id, name, changeset FROM edit WHERE id = ?", first_undone());
     if (!row.next()) return std::nullopt;
     id = row.integer(0);
     name = row.text(1);
@@ -137,9 +159,9 @@ void UndoLog::apply(const Bytes& changeset, const std::string& name) {
   if (rc != SQLITE_OK) throw database_.failure(rc, "apply a step of the undo log to");
 }
 
-std::vector<HistoryStep> UndoLog::steps() const {
+std::vector<HistoryStep> UndoLog::steps(std::int64_t first) const {
   std::vector<HistoryStep> steps;
-  Query row(database_, "SELECT id, name, made, undone, barrier FROM edit ORDER BY id");
+  Query row(database_, "SELECT id, name, made, undone, barrier FROM edit WHERE id >= ? ORDER BY id", first);
   while (row.next()) {
     steps.push_back({row.integer(0), row.text(1), row.text(2), row.integer(3) != 0, row.integer(4) != 0});
   }

@@ -35,12 +35,14 @@ class UndoLog {
   // Throws kCorrupt when the tables do not hold what the step left.
   std::optional<std::string> undo();
   std::optional<std::string> redo();
-  std::vector<HistoryStep> steps() const;
+  // Those of this number and later ones, oldest first.
+  std::vector<HistoryStep> steps(std::int64_t first) const;
   // See Project::history_size() and trim_history().
   HistorySize size(const std::optional<std::string>& before) const;
   HistorySize trim(const std::string& before);
 
  private:
+  std::int64_t first_undone() const;  // 0 where none is
   void check(const Bytes& changeset) const;
   void apply(const Bytes& changeset, const std::string& name);
   Database& database_;
