@@ -252,6 +252,14 @@ json apply_edit_line(Project& project, std::string_view line, std::int64_t line_
 
 std::int64_t apply_edit_script(Project& project, std::istream& script,
                                const std::function<void(const json&)>& reply, const JobContext& job) {
+  const auto apply = [&](std::string_view line, std::int64_t number) {
+    return apply_edit_line(project, line, number);
+  };
+  return apply_edit_script(apply, script, reply, job);
+}
+
+std::int64_t apply_edit_script(const ApplyLine& apply, std::istream& script,
+                               const std::function<void(const json&)>& reply, const JobContext& job) {
   std::int64_t number = 0;
   std::int64_t done = 0;
   std::string line;
@@ -269,7 +277,7 @@ std::int64_t apply_edit_script(Project& project, std::istream& script,
       throw Error(ErrorCode::kInvalid,
                   fmt::format("line {}: longer than {} MiB", number, kLongestLine >> 20));
     }
-    reply(apply_edit_line(project, content, number));
+    reply(apply(content, number));
     ++done;
   }
   check();  // a signal ends the reading, too

@@ -46,4 +46,10 @@ std::int64_t apply_edit_script(project::Project& project, std::istream& script,
                                const std::function<void(const nlohmann::json&)>& reply,
                                const JobContext& job = {});
 
+// The same with the lines applied by somebody else, who throws what apply_edit_line() throws.
+using ApplyLine = std::function<nlohmann::json(std::string_view line, std::int64_t line_number)>;
+std::int64_t apply_edit_script(const ApplyLine& apply, std::istream& script,
+                               const std::function<void(const nlohmann::json&)>& reply,
+                               const JobContext& job = {});
+
 }  // namespace footwall::tasks

@@ -1,5 +1,6 @@
 // The one way in which an interpretation changes, and the way back.
 #include "storage/base/error.h"
+#include "storage/base/log.h"
 #include "storage/project/detail/edit_state.h"
 #include "storage/project/detail/names.h"
 #include "storage/project/detail/project_state.h"
@@ -61,6 +62,21 @@ std::optional<std::string> Project::undo() {
 
 std::optional<std::string> Project::redo() {
   return state_->write([&] { return detail::UndoLog(*state_->database).redo(); });
+}
+
+HistorySize Project::history_size(const std::optional<std::string>& before) const {
+  return detail::UndoLog(*state_->database).size(before);
+}
+
+HistorySize Project::trim_history(const std::string& before) {
+  const HistorySize dropped = state_->write([&] { return detail::UndoLog(*state_->database).trim(before); });
+  if (dropped.steps == 0) return dropped;
+  try {
+    state_->database->vacuum();
+  } catch (const Error& error) {
+    log::warn(std::string("the room of the dropped steps is kept for later edits: ") + error.what());
+  }
+  return dropped;
 }
 
 std::vector<HistoryStep> Project::history(std::int64_t first) const {

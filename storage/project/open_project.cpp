@@ -111,7 +111,8 @@ void Project::State::close() {
     }
     // DELETE mode leaves one whole file that read-only media can hold. A reader in our way keeps the
     // write-ahead log; the next clean close tries again.
-    if (lock && !lost) {
+    const bool last = lock.use_count() == 1;  // those beside this one would only be in its way
+    if (lock && !lost && last) {
       try {
         database->exec(
             "PRAGMA busy_timeout = 0; PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode = DELETE");
@@ -187,6 +188,7 @@ Project Project::open(const std::filesystem::path& path, OpenMode mode, const Op
   const int newest = migrations.back().to;
   auto state = std::make_unique<State>();
   state->path = resolved(path);
+  state->migrations = migrations;
   detail::check_header(state->path, newest);
   state->file_system =
       options.file_system ? *options.file_system : file_system_at(folder_of(state->path)).kind;
@@ -202,8 +204,8 @@ Project Project::open(const std::filesystem::path& path, OpenMode mode, const Op
   }
 
   // 2. The file, and the proof that it is what it should be.
-  const Access access = state->lock ? Access::kWrite : access_for_reading(state->file_system, state->path);
-  state->database = std::make_unique<Database>(state->path, access);
+  state->access = state->lock ? Access::kWrite : access_for_reading(state->file_system, state->path);
+  state->database = std::make_unique<Database>(state->path, state->access);
   Database& database = *state->database;
   state->version = detail::verify(database, migrations);
   database.exec("PRAGMA foreign_keys = ON");
@@ -251,6 +253,28 @@ Project Project::open(const std::filesystem::path& path, OpenMode mode, const Op
     }
   }
   return Project(std::move(state));
+}
+
+Project Project::beside() const {
+  if (!state_->database) throw Error(ErrorCode::kInvalid, fmt::format("{} is closed", state_->path.string()));
+  auto state = std::make_unique<State>();
+  state->path = state_->path;
+  state->file_system = state_->file_system;
+  state->access = state_->access;
+  state->lock = state_->lock;
+  state->lost = state_->lost;
+  state->version = state_->version;
+  state->migrations = state_->migrations;
+  state->regenerator = state_->regenerator;
+  state->database = std::make_unique<Database>(state->path, state->access);
+  state->database->exec("PRAGMA foreign_keys = ON");
+  if (!state->lock) detail::show_as_newest(*state->database, state->version, state->migrations);
+  return Project(std::move(state));
+}
+
+std::string edit_socket_of(const std::filesystem::path& project) {
+  const detail::Holder holder = detail::holder_of(detail::lock_path(resolved(project)));
+  return holder.dead() ? std::string() : holder.edit_socket;
 }
 
 void Project::close() {

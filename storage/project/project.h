@@ -65,6 +65,12 @@ class Project {
   Project& operator=(Project&&) noexcept;
   // Closes; errors are logged. close() throws them.
   ~Project();
+  // Another connection to the same file, for another thread of this program: it sees what is committed, and
+  // writes under the same lock where this one may. One transaction at a time: whoever comes second waits for
+  // up to 5 s, then gets kHeld. A program must not open() a project twice instead: looking at the file closes
+  // it again, and with that the process loses the POSIX locks that keep other programs from ending SQLite's
+  // log. Throws what open() throws for a file that is gone.
+  Project beside() const;
   // Folds the write-ahead log into the file and frees the lock; nothing else may be called afterwards.
   void close();
 
@@ -125,6 +131,13 @@ class Project {
   std::optional<std::string> redo();
   // Oldest first; those of this number and later ones.
   std::vector<HistoryStep> history(std::int64_t first = 0) const;
+  // Steps of the history and the bytes of what they hold; of those alone that trim_history(before) would
+  // drop.
+  HistorySize history_size(const std::optional<std::string>& before = {}) const;
+  // Drops the oldest steps, up to the first that was made at `before` (UTC, as HistoryStep::when) or later,
+  // or could be redone: what they did stays, but can no longer be undone. Notes it among the project's events
+  // and gives the room back to the disk where nobody else reads. Returns what was dropped.
+  HistorySize trim_history(const std::string& before);
 
   // Meshes. Stale: there is none, or the fault's shape changed since (undo makes it fresh again).
   void store_mesh(std::int64_t fault, const MeshRecord& mesh);
@@ -167,6 +180,10 @@ class Project {
   explicit Project(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
+
+// The socket on which whoever writes this project takes edits (OpenOptions::edit_socket); empty where nobody
+// does, or takes none.
+std::string edit_socket_of(const std::filesystem::path& project);
 
 // Throws kInvalid for what cannot be the name of a `what`, "volume" or "run": empty, over 200 bytes, control
 // characters, bytes that are not UTF-8, or blanks at an end.

@@ -84,6 +84,11 @@ struct HistoryStep {
   bool barrier = false;  // "history ends here": written by a migration, cannot be undone
 };
 
+struct HistorySize {
+  std::int64_t steps = 0;
+  std::int64_t bytes = 0;
+};
+
 struct EditResult {
   bool changed = false;                   // false: nothing differed, so nothing was recorded
   std::int64_t step = 0;                  // HistoryStep::id, 0 without change

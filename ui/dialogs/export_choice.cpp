@@ -7,6 +7,7 @@
 
 #include "engine/tasks/export_faces.h"
 #include "engine/tasks/export_sticks.h"
+#include "engine/tasks/export_volume.h"
 #include "storage/formats/stick_formats.h"
 
 namespace footwall::ui {
@@ -24,7 +25,11 @@ QString faults_text(std::int64_t faults) {
   return faults == 1 ? tr("1 fault") : tr("%1 faults").arg(number(faults));
 }
 
-Exported faces_into(const tasks::FaceTables& faces, const ExportChoice& choice) {
+Exported faces_into(const project::Project& project, const ExportChoice& choice, const JobContext& job) {
+  job.report(0, "read");
+  const tasks::FaceTables faces =
+      tasks::face_tables(project, choice.fault, choice.run, tasks::Coordinates::kWorld);
+  job.report(0.5, "write");
   const tasks::FacesExported done = tasks::write_faces(faces, choice.file.toStdString());
   Exported said;
   said.text = tr("%1 faces of %2, %3")
@@ -55,7 +60,35 @@ Exported sticks_into(const project::Project& project, const ExportChoice& choice
   return said;
 }
 
+Exported volume_into(const project::Project& project, const ExportChoice& choice, const JobContext& job) {
+  const std::string file = choice.file.toStdString();
+  const project::VolumeRecord volume = project.volume(choice.volume);
+  Exported said;
+  said.text = tr("%1: %2 x %3 x %4 samples")
+                  .arg(QString::fromStdString(volume.name), number(volume.dims[0]), number(volume.dims[1]),
+                       number(volume.dims[2]));
+  if (choice.kind == ExportChoice::Kind::kSegy) {
+    const formats::segy::Written done = tasks::export_segy(project, volume.name, file, {}, job);
+    said.text = tr("%1: %2 traces, %3 bins without a trace left out")
+                    .arg(QString::fromStdString(volume.name), number(done.traces), number(done.skipped));
+    for (const std::string& note : done.notes) said.notices += QString::fromStdString(note);
+  } else if (choice.kind == ExportChoice::Kind::kVti) {
+    tasks::export_vti(project, volume.name, file, true, job);
+  } else if (choice.kind == ExportChoice::Kind::kNrrd) {
+    tasks::export_nrrd(project, volume.name, file, formats::raw::axis_order_from("kji"), job);
+  } else {
+    tasks::export_raw(project, volume.name, file, {}, job);
+    said.notices += tr("float32, little-endian, samples fastest, then crosslines, then inlines");
+  }
+  return said;
+}
+
 }  // namespace
+
+bool is_volume(ExportChoice::Kind kind) {
+  using Kind = ExportChoice::Kind;
+  return kind == Kind::kSegy || kind == Kind::kVti || kind == Kind::kNrrd || kind == Kind::kRaw;
+}
 
 QString suffix_of(const ExportChoice& choice) {
   switch (choice.kind) {
@@ -69,6 +102,14 @@ QString suffix_of(const ExportChoice& choice) {
       return QStringLiteral(".dat");
     case ExportChoice::Kind::kPicture:
       return QStringLiteral(".png");
+    case ExportChoice::Kind::kSegy:
+      return QStringLiteral(".sgy");
+    case ExportChoice::Kind::kVti:
+      return QStringLiteral(".vti");
+    case ExportChoice::Kind::kNrrd:
+      return QStringLiteral(".nrrd");
+    case ExportChoice::Kind::kRaw:
+      return QStringLiteral(".raw");
   }
   return {};
 }
@@ -76,7 +117,7 @@ QString suffix_of(const ExportChoice& choice) {
 QString with_suffix(const QString& file, const ExportChoice& choice) {
   const QString wanted = suffix_of(choice);
   QString stem = file;
-  for (const char* known : {".csv", ".vtp", ".ts", ".dat", ".png"}) {
+  for (const char* known : {".csv", ".vtp", ".ts", ".dat", ".png", ".sgy", ".segy", ".vti", ".nrrd", ".raw"}) {
     if (stem.endsWith(QLatin1String(known), Qt::CaseInsensitive)) {
       stem.chop(static_cast<qsizetype>(qstrlen(known)));
       break;
@@ -94,25 +135,19 @@ QStringList stick_format_names() {
   return names;
 }
 
-std::function<Exported()> prepare_export(const project::Project& project, const ExportChoice& choice,
-                                         const WritePicture& write_picture) {
-  switch (choice.kind) {
-    case ExportChoice::Kind::kCsv:
-    case ExportChoice::Kind::kVtp:
-    case ExportChoice::Kind::kTsurf: {
-      auto faces = std::make_shared<const tasks::FaceTables>(
-          tasks::face_tables(project, choice.fault, choice.run, tasks::Coordinates::kWorld));
-      return [faces, choice] { return faces_into(*faces, choice); };
-    }
-    case ExportChoice::Kind::kSticks:
-      return [said = sticks_into(project, choice)] { return said; };
-    case ExportChoice::Kind::kPicture:
-      break;
+std::function<Exported(const JobContext&)> prepare_export(const project::Project& project, const ExportChoice& choice,
+                                                          const WritePicture& write_picture) {
+  if (choice.kind == ExportChoice::Kind::kPicture) {
+    if (!write_picture)
+      throw Error(ErrorCode::kUsage, "there is no view to make a picture of", "open one first");
+    write_picture(choice.file);
+    return [](const JobContext&) { return Exported{tr("picture written"), {}}; };
   }
-  if (!write_picture)
-    throw Error(ErrorCode::kUsage, "there is no view to make a picture of", "open one first");
-  write_picture(choice.file);
-  return [] { return Exported{tr("picture written"), {}}; };
+  auto beside = std::make_shared<const project::Project>(project.beside());
+  return [beside, choice](const JobContext& job) {
+    if (is_volume(choice.kind)) return volume_into(*beside, choice, job);
+    return choice.kind == ExportChoice::Kind::kSticks ? sticks_into(*beside, choice) : faces_into(*beside, choice, job);
+  };
 }
 
 }  // namespace footwall::ui

@@ -11,15 +11,17 @@
 namespace footwall::ui {
 
 struct ExportChoice {
-  enum class Kind { kCsv, kVtp, kTsurf, kSticks, kPicture };
+  enum class Kind { kCsv, kVtp, kTsurf, kSticks, kPicture, kSegy, kVti, kNrrd, kRaw };
   Kind kind = Kind::kCsv;
   QString file;
   std::string fault;      // empty: all
   std::optional<Id> run;  // of the statistics; none: the last
+  std::string volume;     // by name; empty: the first
   std::string stick_format = "charisma";
   bool interpolated = false;  // sticks: the interpolated pillars too
 };
 
+bool is_volume(ExportChoice::Kind kind);
 // The suffix with its dot, ".csv".
 QString suffix_of(const ExportChoice& choice);
 // The file's name with the suffix of the kind, whatever suffix of a kind it has now.
@@ -34,10 +36,10 @@ struct Exported {
   QString text;         // "3,108 faces of 2 faults, statistics of run 3"
   QStringList notices;  // names that had to change, faults that are stale
 };
-// In the project's thread: reads what is to be written, and writes sticks and pictures. What comes back
-// writes the rest, on any thread. Both throw what tasks::export_faces(), tasks::export_sticks() and
-// write_picture throw.
-std::function<Exported()> prepare_export(const project::Project& project, const ExportChoice& choice,
-                                         const WritePicture& write_picture);
+// In the window's thread: makes the picture, and opens a connection to the project for the rest. What comes back reads and
+// writes, on any thread. Both throw what tasks::write_faces(), tasks::export_sticks(), tasks::export_segy() and their
+// likes, and write_picture throw.
+std::function<Exported(const JobContext&)> prepare_export(const project::Project& project, const ExportChoice& choice,
+                                                          const WritePicture& write_picture);
 
 }  // namespace footwall::ui

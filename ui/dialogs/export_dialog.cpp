@@ -10,6 +10,8 @@
 #include <memory>
 #include <utility>
 
+#include "ui/dialogs/fault_box.h"
+
 namespace footwall::ui {
 
 using Kind = ExportChoice::Kind;
@@ -25,19 +27,25 @@ ExportDialog::ExportDialog(Workbench& workbench, WritePicture write_picture, QWi
   kind_->addItem(tr("Faces and statistics, ParaView (VTP)"), static_cast<int>(Kind::kVtp));
   kind_->addItem(tr("Meshes, GOCAD (TSurf)"), static_cast<int>(Kind::kTsurf));
   kind_->addItem(tr("Pillars, fault sticks"), static_cast<int>(Kind::kSticks));
-  if (write_picture_) kind_->addItem(tr("Picture of the view (PNG)"), static_cast<int>(Kind::kPicture));
-  fault_ = new QComboBox(this);
-  fault_->setObjectName(QStringLiteral("fault"));
-  fault_->addItem(tr("all faults"));
-  for (const Fault& fault : document.faults()) {
-    const QString name = QString::fromStdString(fault.record.name);
-    fault_->addItem(name, name);
+  if (!document.volumes().empty()) {
+    kind_->addItem(tr("Volume, SEG-Y"), static_cast<int>(Kind::kSegy));
+    kind_->addItem(tr("Volume, ParaView (VTI)"), static_cast<int>(Kind::kVti));
+    kind_->addItem(tr("Volume, NRRD"), static_cast<int>(Kind::kNrrd));
+    kind_->addItem(tr("Volume, plain samples (float32)"), static_cast<int>(Kind::kRaw));
   }
+  if (write_picture_) kind_->addItem(tr("Picture of the view (PNG)"), static_cast<int>(Kind::kPicture));
+  fault_ = fault_box(workbench, true, false, this);
   run_ = new QComboBox(this);
   run_->setObjectName(QStringLiteral("run"));
   run_->addItem(tr("the last run"));
   for (const project::RunRecord& run : document.project().runs()) {
     run_->addItem(QString::fromStdString(run.name), static_cast<qlonglong>(run.id));
+  }
+  volume_ = new QComboBox(this);
+  volume_->setObjectName(QStringLiteral("volume"));
+  for (const project::VolumeRecord& volume : document.volumes()) {
+    volume_->addItem(QString::fromStdString(volume.name));
+    if (volume.id == workbench.display.volume()) volume_->setCurrentIndex(volume_->count() - 1);
   }
   stick_format_ = new QComboBox(this);
   stick_format_->setObjectName(QStringLiteral("stick_format"));
@@ -64,6 +72,7 @@ ExportDialog::ExportDialog(Workbench& workbench, WritePicture write_picture, QWi
   form->addRow(tr("What"), kind_);
   form->addRow(tr("Faults"), fault_);
   form->addRow(tr("Statistics"), run_);
+  form->addRow(tr("Volume"), volume_);
   form->addRow(tr("Stick format"), stick_format_);
   form->addRow(QString(), interpolated_);
   form->addRow(tr("File"), file_row);
@@ -108,6 +117,7 @@ ExportChoice ExportDialog::choice() const {
   choice.file = file_->text();
   choice.fault = fault_->currentData().toString().toStdString();
   if (run_->currentData().isValid()) choice.run = run_->currentData().toLongLong();
+  choice.volume = volume_->currentText().toStdString();
   choice.stick_format = stick_format_->currentText().toStdString();
   choice.interpolated = interpolated_->isChecked();
   return choice;
@@ -120,9 +130,11 @@ void ExportDialog::choose(ExportChoice::Kind kind) {
 void ExportDialog::kind_changed() {
   const ExportChoice now = choice();
   const bool sticks = now.kind == Kind::kSticks;
-  const bool faces = !sticks && now.kind != Kind::kPicture;
+  const bool volume = is_volume(now.kind);
+  const bool faces = !sticks && !volume && now.kind != Kind::kPicture;
   fault_->setEnabled(sticks || faces);
   run_->setEnabled(faces);
+  volume_->setEnabled(volume);
   stick_format_->setEnabled(sticks);
   interpolated_->setEnabled(sticks);
   file_->setText(with_suffix(file_->text(), now));
@@ -151,7 +163,7 @@ void ExportDialog::export_chosen() {
     export_->setEnabled(false);
     job_ = workbench_.jobs.start(
         tr("Export %1").arg(QFileInfo(now.file).fileName()),
-        [write, done](const JobContext&) { *done = write(); },
+        [write, done](const JobContext& job) { *done = write(job); },
         [dialog, done, file = now.file] {
           if (!dialog) return;
           dialog->say((QStringList(done->text) + done->notices).join(QLatin1Char('\n')),

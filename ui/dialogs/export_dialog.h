@@ -1,4 +1,4 @@
-// Export of faces with statistics, of sticks, and of a picture.
+// Export of faces with statistics, of sticks, of volumes, and of a picture.
 #pragma once
 #include <QCheckBox>
 #include <QComboBox>
@@ -39,7 +39,7 @@ class ExportDialog final : public QDialog {
   Workbench& workbench_;
   WritePicture write_picture_;
   int job_ = 0;  // the export under way
-  QComboBox *kind_, *fault_, *run_, *stick_format_;
+  QComboBox *kind_, *fault_, *run_, *volume_, *stick_format_;
   QCheckBox* interpolated_;
   QLineEdit* file_;
   QLabel* message_;

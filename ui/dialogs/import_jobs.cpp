@@ -4,13 +4,14 @@
 
 #include "engine/tasks/new_project.h"
 #include "engine/tasks/volume_sources.h"
+#include "ui/model/project_job.h"
 
 namespace footwall::ui {
 namespace {
 
 struct Import {
   std::unique_ptr<tasks::PlannedVolume> planned;
-  tasks::VolumeSource source;
+  Id listed = 0;
 };
 
 QString title_of(const std::filesystem::path& file) {
@@ -24,25 +25,18 @@ int import_segy(Workbench& workbench, const std::filesystem::path& file,
                 const std::string& name, std::function<void(Id)> done) {
   auto import = std::make_shared<Import>();
   import->planned = tasks::plan_volume(workbench.document.project(), name, geometry);
-  const auto work = [import, file, options, geometry](const JobContext& job) {
-    import->source = tasks::segy_source(file, options, job.part(0, 0.2)).source;
-    if (import->source.geometry != geometry) {
+  const auto work = [import, file, options, geometry](project::Project& project, const JobContext& job) {
+    const tasks::VolumeSource source = tasks::segy_source(file, options, job.part(0, 0.2)).source;
+    if (source.geometry != geometry) {
       throw Error(ErrorCode::kInvalid, "the file has changed since its headers were shown",
                   "look at it again");
     }
-    tasks::write_planned(*import->planned, import->source, job.part(0.2, 1));
+    tasks::write_planned(*import->planned, source, job.part(0.2, 1));
+    import->listed = tasks::list_planned(project, *import->planned, source).id;
   };
-  return workbench.jobs.start(title_of(file), work, [&workbench, import, done = std::move(done)] {
-    Document& document = workbench.document;
-    try {
-      const project::VolumeRecord record =
-          tasks::list_planned(document.store(), *import->planned, import->source);
-      document.reload_volumes();
-      if (workbench.display.volume() == 0) workbench.display.set_volume(record.id);
-      if (done) done(record.id);
-    } catch (const Error& error) {
-      Q_EMIT document.failed(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
-    }
+  return start_on_project(workbench, title_of(file), work, [&workbench, import, done = std::move(done)] {
+    if (workbench.display.volume() == 0) workbench.display.set_volume(import->listed);
+    if (done) done(import->listed);
   });
 }
 

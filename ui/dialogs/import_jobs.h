@@ -9,10 +9,9 @@
 
 namespace footwall::ui {
 
-// Into the open project: the file is written on the job's thread and listed in the window's; the volume is
-// the one shown where there was none. geometry: what a look at the file found; the job refuses a file that
-// has changed since. Returns the job's number. Throws what tasks::plan_volume() throws; later failures come
-// as Jobs::finished, and what the listing refuses as Document::failed.
+// Into the open project: written and listed on the job's thread; the volume is the one shown where there was
+// none. geometry: what a look at the file found; the job refuses a file that has changed since. Returns the
+// job's number. Throws what tasks::plan_volume() throws; later failures come as Jobs::finished.
 int import_segy(Workbench& workbench, const std::filesystem::path& file,
                 const formats::segy::Options& options, const survey::Geometry& geometry,
                 const std::string& name, std::function<void(Id)> done = {});

@@ -5,6 +5,8 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "ui/dialogs/fault_box.h"
+
 namespace footwall::ui {
 namespace {
 
@@ -37,14 +39,7 @@ RunDialog::RunDialog(Workbench& workbench, QWidget* parent) : QDialog(parent), w
     volume_->addItem(QString::fromStdString(volume.name));
     if (volume.id == workbench.display.volume()) volume_->setCurrentIndex(volume_->count() - 1);
   }
-  fault_ = new QComboBox(this);
-  fault_->setObjectName(QStringLiteral("fault"));
-  fault_->addItem(tr("all faults"));
-  for (const Fault& fault : document.faults()) {
-    const QString name = QString::fromStdString(fault.record.name);
-    fault_->addItem(name, name);
-    if (fault.record.id == workbench.selection.active_fault()) fault_->setCurrentIndex(fault_->count() - 1);
-  }
+  fault_ = fault_box(workbench, true, true, this);
   name_ = new QLineEdit(this);
   name_->setObjectName(QStringLiteral("name"));
   name_->setPlaceholderText(tr("run and its number"));

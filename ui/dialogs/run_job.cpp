@@ -5,13 +5,15 @@
 
 #include "engine/extract/registry.h"
 #include "engine/service/client/running_tasks.h"
+#include "engine/tasks/triangulate.h"
+#include "ui/model/project_job.h"
 
 namespace footwall::ui {
 namespace {
 
-struct Run {
-  tasks::PreparedRun prepared;
-  std::string result;
+struct Ended {
+  Id run = 0;
+  std::set<Id> remade;  // faults whose meshes were made first
 };
 
 std::vector<RunChoices::Choice> choices_of(std::span<const extract::Row> rows) {
@@ -34,31 +36,30 @@ RunChoices run_choices() {
 
 int start_run(Workbench& workbench, const tasks::ExtractOptions& options, std::function<void(Id)> done) {
   Document& document = workbench.document;
-  auto run = std::make_shared<Run>();
-  run->prepared = tasks::prepare_run(document.store(), options, {});
-  if (!run->prepared.made.triangulated.empty()) {
-    std::set<Id> remade;
-    for (const session::JobFault& fault : run->prepared.made.job.faults) remade.insert(fault.id);
-    Q_EMIT document.meshes_changed(remade);
-  }
+  tasks::chosen_faults(document.project(), options.fault);
+  extract::validate(options.engine);
+  if (!options.name.empty()) project::check_name("run", options.name);
   const QString title = options.fault.empty()
                             ? QObject::tr("Statistics of all faults")
                             : QObject::tr("Statistics of %1").arg(QString::fromStdString(options.fault));
-  session::LaunchOptions launch = options.launch;
-  if (const auto connection = workbench.engine.connection(); connection && launch.ranks == 0) {
-    launch.running = service::running_tasks(*connection);
+  tasks::ExtractOptions chosen = options;
+  if (!chosen.velocity) chosen.velocity = document.velocity();
+  if (const auto connection = workbench.engine.connection(); connection && chosen.launch.ranks == 0) {
+    chosen.launch.running = service::running_tasks(*connection);
   }
-  const auto work = [run, launch](const JobContext& job) {
-    run->result = tasks::launch_run(run->prepared, launch, job);
-  };
-  return workbench.jobs.start(title, work, [&document, run, done = std::move(done)] {
-    try {
-      const Id id = tasks::attach_run(document.store(), run->prepared, run->result).run;
-      Q_EMIT document.runs_changed();
-      if (done) done(id);
-    } catch (const Error& error) {
-      Q_EMIT document.failed(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
+  auto ended = std::make_shared<Ended>();
+  const auto work = [ended, chosen](project::Project& project, const JobContext& job) {
+    const tasks::PreparedRun prepared = tasks::prepare_run(project, chosen, job.part(0, 0.05));
+    if (!prepared.made.triangulated.empty()) {
+      for (const session::JobFault& fault : prepared.made.job.faults) ended->remade.insert(fault.id);
     }
+    std::string result = tasks::launch_run(prepared, chosen.launch, job.part(0.05, 0.98));
+    ended->run = tasks::attach_run(project, prepared, std::move(result)).run;
+  };
+  return start_on_project(workbench, title, work, [&document, ended, done = std::move(done)] {
+    if (!ended->remade.empty()) Q_EMIT document.meshes_changed(ended->remade);
+    Q_EMIT document.runs_changed();
+    if (done) done(ended->run);
   });
 }
 

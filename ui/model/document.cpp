@@ -1,16 +1,30 @@
 #include "ui/model/document.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
 #include "engine/tasks/triangulate.h"
 
 namespace footwall::ui {
+namespace {
+
+constexpr const char* kVelocitySetting = "velocity";
+
+std::optional<double> stored_velocity(const project::Project& project) {
+  const auto text = project.setting(kVelocitySetting);
+  if (!text) return std::nullopt;
+  const double velocity = QString::fromStdString(*text).toDouble();
+  return velocity > 0 && std::isfinite(velocity) ? std::optional(velocity) : std::nullopt;
+}
+
+}  // namespace
 
 Document::Document(project::Project project, QObject* parent) : QObject(parent), project_(std::move(project)) {
   if (!project_.read_only()) tasks::follow_parents(project_);
   survey_ = project_.survey();
+  velocity_ = stored_velocity(project_);
   volumes_ = project_.volumes();
   history_ = project_.history();
   reload_interpretation();
@@ -141,29 +155,50 @@ bool Document::go_to_step(Id id) {
   return step(undos, redos);
 }
 
-void Document::refresh() {
+void Document::set_velocity(double velocity) {
+  try {
+    project_.set_setting(kVelocitySetting, QString::number(velocity, 'g', 17).toStdString());
+  } catch (const Error& error) {
+    return report(error);
+  }
+  reload_volumes();
+}
+
+void Document::refresh(std::map<Id, Fault> already) {
   try {
     // Views read their samples again after reload_volumes().
     const auto same = [](const project::VolumeRecord& a, const project::VolumeRecord& b) {
       return a.id == b.id && a.name == b.name && a.file == b.file && a.bytes == b.bytes && a.checksum == b.checksum &&
              a.role == b.role;
     };
-    const bool has_survey = project_.survey().has_value();
-    if (has_survey != survey_.has_value() || !std::ranges::equal(project_.volumes(), volumes_, same)) reload_volumes();
+    if (!std::ranges::equal(project_.volumes(), volumes_, same) || stored_velocity(project_) != velocity_ ||
+        survey_ != project_.survey()) {
+      reload_volumes();
+    }
     history_ = project_.history();
-    reload_interpretation();
+    reload_interpretation(std::move(already));
     Q_EMIT history_changed();
   } catch (const Error& error) {
     report(error);
   }
 }
 
+void Document::refresh_interpretation() {
+  try {
+    history_ = project_.history();
+  } catch (const Error& error) {
+    report(error);
+  }
+  follow_change();
+}
+
 void Document::reload_volumes() {
   try {
     const bool had_survey = survey_.has_value();
+    const std::optional<double> former = std::exchange(velocity_, stored_velocity(project_));
     survey_ = project_.survey();
     volumes_ = project_.volumes();
-    if (survey_.has_value() != had_survey) Q_EMIT survey_changed();
+    if (survey_.has_value() != had_survey || velocity_ != former) Q_EMIT survey_changed();
     Q_EMIT volumes_changed();
   } catch (const Error& error) {
     report(error);
@@ -172,12 +207,15 @@ void Document::reload_volumes() {
 
 // Reads the pillars of those faults alone whose revision differs from what is kept; nothing kept changes before all
 // of that is read.
-void Document::reload_interpretation() {
+void Document::reload_interpretation(std::map<Id, Fault> already) {
   std::vector<project::FaultRecord> records = project_.faults();
   std::map<Id, std::vector<survey::Pillar>> read;
   for (const project::FaultRecord& record : records) {
     const Fault* known = fault(record.id);
-    if (known == nullptr || known->record.revision != record.revision) read[record.id] = project_.pillars(record.id);
+    if (known != nullptr && known->record.revision == record.revision) continue;
+    const auto given = already.find(record.id);
+    const bool is_read = given != already.end() && given->second.record.revision == record.revision;
+    read[record.id] = is_read ? std::move(given->second.pillars) : project_.pillars(record.id);
   }
 
   // 1. What differs, and whose pillars and nodes are no longer whose they were.

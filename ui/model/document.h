@@ -42,6 +42,9 @@ class Document final : public QObject {
   project::Project& store() { return project_; }
   bool read_only() const { return project_.read_only(); }
   const std::optional<survey::Geometry>& survey() const { return survey_; }
+  // Of the survey, in m/s, for metres in a time survey; nothing where it is not known.
+  const std::optional<double>& velocity() const { return velocity_; }
+  void set_velocity(double velocity);
 
   const std::vector<Fault>& faults() const { return faults_; }  // in the order they were made
   const Fault* fault(Id fault) const;                           // null where there is none
@@ -69,8 +72,12 @@ class Document final : public QObject {
   // of them is refused, those before it stay done.
   bool go_to_step(Id step);
 
-  // Reads again what others may have changed: for a project that somebody else writes.
-  void refresh();
+  // Reads again what others may have changed: for a project that somebody else writes, or a job of this program
+  // beside(). already: faults that were read on the way, by id; they are not read a second time where they are the
+  // stored ones still.
+  void refresh(std::map<Id, Fault> already = {});
+  // The same of the interpretation and its history alone: after an edit that was made in store().
+  void refresh_interpretation();
 
  Q_SIGNALS:
   // Pillars of these faults differ, in what is stored or shown; faults that are gone are among them.
@@ -78,6 +85,7 @@ class Document final : public QObject {
   // Names, colours, order or number of faults differ.
   void faults_changed();
   void history_changed();
+  // There is one now, or its velocity differs.
   void survey_changed();
   void volumes_changed();
   void meshes_changed(const std::set<footwall::ui::Id>& faults);
@@ -92,7 +100,7 @@ class Document final : public QObject {
 
  private:
   // Work in proportion to what differs, whatever the length of the history and the size of the faults that stay.
-  void reload_interpretation();
+  void reload_interpretation(std::map<Id, Fault> already = {});
   void follow_change();
   void report(const Error& error);
   bool step(std::int64_t undos, std::int64_t redos);
@@ -101,6 +109,7 @@ class Document final : public QObject {
 
   project::Project project_;
   std::optional<survey::Geometry> survey_;
+  std::optional<double> velocity_;
   std::vector<Fault> faults_;
   std::vector<project::VolumeRecord> volumes_;
   std::vector<project::HistoryStep> history_;

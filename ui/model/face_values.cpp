@@ -18,11 +18,16 @@ Family family_of(const std::string& statistic) {
   return statistic.starts_with("offset") ? kLate : kWithMoves;
 }
 
+std::set<Family> families_of(const std::map<std::string, std::vector<double>>& columns) {
+  std::set<Family> families;
+  for (const auto& [statistic, values] : columns) families.insert(family_of(statistic));
+  return families;
+}
+
 }  // namespace
 
 void FaceValues::set_surface(std::shared_ptr<const FaultSurface> surface) {
   const std::shared_ptr<const FaultSurface> before = std::exchange(surface_, std::move(surface));
-  const auto former_places = std::exchange(places_, {});
   const auto former_values = std::exchange(values_, {});
   const auto former_computed = std::exchange(computed_at_, {});
   const auto former_moved = std::exchange(moved_under_, {});
@@ -30,16 +35,14 @@ void FaceValues::set_surface(std::shared_ptr<const FaultSurface> surface) {
   const std::size_t count = surface_->faces.size();
   for (auto& places : computed_at_) places.assign(count, std::nullopt);
   moved_under_.assign(count, kNotTold);
+  if (before == nullptr) return;
   std::vector<std::size_t> from(count, former_moved.size());
   for (std::size_t f = 0; f < count; ++f) {
-    const std::pair<Id, std::int32_t> name{surface_->faces[f].panel, surface_->faces[f].n};
-    places_.emplace_hint(places_.end(), name, f);
-    const auto found = former_places.find(name);
-    if (found == former_places.end()) continue;
-    from[f] = found->second;
-    for (const Family family : {kWithMoves, kLate})
-      computed_at_[family][f] = former_computed[family][found->second];
-    if (before->lattice[found->second] == surface_->lattice[f]) moved_under_[f] = former_moved[found->second];
+    const std::size_t place = before->place_of(surface_->faces[f].panel, surface_->faces[f].n, f);
+    if (place == before->faces.size()) continue;
+    from[f] = place;
+    for (const Family family : {kWithMoves, kLate}) computed_at_[family][f] = former_computed[family][place];
+    if (before->lattice[place] == surface_->lattice[f]) moved_under_[f] = former_moved[place];
   }
   for (const auto& [statistic, old] : former_values) {
     std::vector<double>& now = values_[statistic];
@@ -50,9 +53,11 @@ void FaceValues::set_surface(std::shared_ptr<const FaultSurface> surface) {
   }
 }
 
-std::size_t FaceValues::place_of(Id panel, std::int32_t number) const {
-  const auto found = places_.find({panel, number});
-  return found == places_.end() ? moved_under_.size() : found->second;
+const std::vector<double>* FaceValues::find(const std::string& statistic) const {
+  if (surface_ == nullptr) return nullptr;
+  if (const auto found = surface_->geometry.find(statistic); found != surface_->geometry.end()) return &found->second;
+  const auto found = values_.find(statistic);
+  return found == values_.end() ? nullptr : &found->second;
 }
 
 std::vector<double>& FaceValues::column(const std::string& statistic) {
@@ -61,24 +66,40 @@ std::vector<double>& FaceValues::column(const std::string& statistic) {
   return values;
 }
 
-void FaceValues::set(Id panel, std::int32_t number, const survey::LatticeTriangle& corners,
-                     const std::string& statistic, double value) {
-  const std::size_t place = place_of(panel, number);
-  if (place == moved_under_.size()) return;
-  column(statistic)[place] = value;
-  computed_at_[family_of(statistic)][place] = corners;
+void FaceValues::set(std::span<const Id> panels, std::span<const std::int32_t> numbers,
+                     std::span<const survey::LatticeTriangle> corners,
+                     const std::map<std::string, std::vector<double>>& columns) {
+  if (surface_ == nullptr) return;
+  const std::set<Family> families = families_of(columns);
+  std::vector<std::size_t> places(panels.size());
+  std::size_t guess = 0;
+  for (std::size_t n = 0; n < panels.size(); ++n) {
+    const std::size_t place = places[n] = surface_->place_of(panels[n], numbers[n], guess);
+    if (place == moved_under_.size()) continue;
+    guess = place + 1;
+    for (const Family family : families) computed_at_[family][place] = corners[n];
+  }
+  for (const auto& [statistic, values] : columns) {
+    if (is_geometry(statistic)) continue;
+    std::vector<double>& into = column(statistic);
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      if (places[n] < into.size()) into[places[n]] = values[n];
+    }
+  }
 }
 
 void FaceValues::take(const std::vector<Id>& panels, const std::vector<std::int32_t>& numbers,
                       const std::map<std::string, std::vector<double>>& statistics,
                       const std::vector<std::size_t>& rows, std::uint64_t edit) {
-  std::set<Family> families;
-  for (const auto& [statistic, values] : statistics) families.insert(family_of(statistic));
+  const std::set<Family> families = families_of(statistics);
   std::vector<std::pair<std::size_t, std::size_t>> placed;  // row, place
+  if (surface_ == nullptr) return;
   placed.reserve(rows.size());
+  std::size_t guess = 0;
   for (const std::size_t row : rows) {
-    const std::size_t place = place_of(panels[row], numbers[row]);
+    const std::size_t place = surface_->place_of(panels[row], numbers[row], guess);
     if (place == moved_under_.size()) continue;
+    guess = place + 1;
     placed.emplace_back(row, place);
     for (const Family family : families) {
       computed_at_[family][place] =
@@ -96,17 +117,12 @@ void FaceValues::tell_moved(std::uint64_t edit) {
   std::ranges::replace(moved_under_, kNotTold, edit);
 }
 
-void FaceValues::set_geometry(const std::string& statistic, std::vector<double> values) {
-  geometry_.insert(statistic);
-  values_[statistic] = std::move(values);
-}
-
 void FaceValues::scale(const std::string& product, const std::string& factor, const std::string& other) {
-  const auto a = values_.find(factor);
-  const auto b = values_.find(other);
-  if (a == values_.end() || b == values_.end()) return;
+  const std::vector<double>* a = find(factor);
+  const std::vector<double>* b = find(other);
+  if (a == nullptr || b == nullptr) return;
   std::vector<double>& into = column(product);
-  for (std::size_t f = 0; f < into.size(); ++f) into[f] = a->second[f] * b->second[f];
+  for (std::size_t f = 0; f < into.size(); ++f) into[f] = (*a)[f] * (*b)[f];
 }
 
 void FaceValues::mark_stale(const std::string& statistic) {
@@ -130,18 +146,18 @@ bool FaceValues::any_stale(const std::string& statistic) const {
 }
 
 std::shared_ptr<const FaceNumbers> FaceValues::numbers(const std::string& statistic) const {
-  const auto found = values_.find(statistic);
-  if (found == values_.end()) return nullptr;
+  const std::vector<double>* values = find(statistic);
+  if (values == nullptr) return nullptr;
   auto numbers = std::make_shared<FaceNumbers>();
-  numbers->values = found->second;
+  numbers->values = *values;
   const std::size_t count = moved_under_.size();
   numbers->stale.assign(count, 0);
   if (!is_geometry(statistic)) {
     for (std::size_t f = 0; f < count; ++f) numbers->stale[f] = is_stale(statistic, f) ? 1 : 0;
   }
   numbers->hatched.assign(count, 0);
-  if (const auto counts = values_.find("count"); counts != values_.end()) {
-    for (std::size_t f = 0; f < count; ++f) numbers->hatched[f] = counts->second[f] < kFewestSamples ? 1 : 0;
+  if (const std::vector<double>* counts = find("count")) {
+    for (std::size_t f = 0; f < count; ++f) numbers->hatched[f] = (*counts)[f] < kFewestSamples ? 1 : 0;
   }
   return numbers;
 }

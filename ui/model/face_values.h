@@ -6,7 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,10 +18,11 @@ class FaceValues {
  public:
   // The surface that the values are of from now on.
   void set_surface(std::shared_ptr<const FaultSurface> surface);
-  // A value of a face by its name, computed where its corners stood there. Names that the surface does not have are
-  // passed over.
-  void set(Id panel, std::int32_t number, const survey::LatticeTriangle& corners, const std::string& statistic,
-           double value);
+  // Values of faces by their names, one of each column a face, computed where their corners stood there. Names that the
+  // surface does not have are passed over.
+  void set(std::span<const Id> panels, std::span<const std::int32_t> numbers,
+           std::span<const survey::LatticeTriangle> corners,
+           const std::map<std::string, std::vector<double>>& columns);
   // Of many faces at once, as an engine answers: row r of all is of face (panels[r], numbers[r]), computed as the face
   // stood under this edit. Takes the rows named.
   void take(const std::vector<Id>& panels, const std::vector<std::int32_t>& numbers,
@@ -29,33 +30,32 @@ class FaceValues {
             std::uint64_t edit);
   // The faces that moved when the surface was last set moved under this edit.
   void tell_moved(std::uint64_t edit);
-  // What follows from the faces' places alone, in the surface's order; never stale.
-  void set_geometry(const std::string& statistic, std::vector<double> values);
-  bool is_geometry(const std::string& statistic) const { return geometry_.contains(statistic); }
+  // What follows from the faces' places alone (FaultSurface::geometry); never stale.
+  bool is_geometry(const std::string& statistic) const {
+    return surface_ != nullptr && surface_->geometry.contains(statistic);
+  }
   // product = factor * other, face by face.
   void scale(const std::string& product, const std::string& factor, const std::string& other);
-  bool is_known(const std::string& statistic) const { return values_.contains(statistic); }
   // What is computed together with the statistic is of another volume, or along another normal: stale on all faces.
   void mark_stale(const std::string& statistic);
   void mark_all_stale();
+  bool is_known(const std::string& statistic) const { return find(statistic) != nullptr; }
   // Whether a face has no value of it, or that of another place than it has now.
   bool any_stale(const std::string& statistic) const;
-  const std::map<std::string, std::vector<double>>& values() const { return values_; }
+  // One value a face; null where nothing is known of the statistic.
+  const std::vector<double>* find(const std::string& statistic) const;
   std::shared_ptr<const FaceNumbers> numbers(const std::string& statistic) const;
 
  private:
-  std::size_t place_of(Id panel, std::int32_t number) const;  // size() where there is none
   bool is_stale(const std::string& statistic, std::size_t face) const;
   std::vector<double>& column(const std::string& statistic);
 
   std::shared_ptr<const FaultSurface> surface_;
-  std::map<std::pair<Id, std::int32_t>, std::size_t> places_;
   std::map<std::string, std::vector<double>> values_;
   // Where each face stood when its values were computed, those that come with every move and those that come late;
   // nothing where that is not known.
   std::array<std::vector<std::optional<survey::LatticeTriangle>>, 2> computed_at_;
   std::vector<std::uint64_t> moved_under_;  // the edit that moved each face last
-  std::set<std::string> geometry_;
 };
 
 }  // namespace footwall::ui

@@ -1,4 +1,5 @@
-// Triangulates on a thread of its own. Of each fault only the newest request is done.
+// Triangulates, and reads and keeps meshes, on a thread and a connection to the project of its own. Of each fault only
+// the newest request is done.
 #pragma once
 #include <condition_variable>
 #include <cstdint>
@@ -6,6 +7,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,27 +22,34 @@ struct SurfaceRequest {
   project::FaultRecord fault;
   std::vector<survey::Pillar> pillars;
   project::Bytes chart;
-  tasks::TriangulateOptions options;
+  std::optional<tasks::TriangulateOptions> options;  // none: those of the stored mesh
+  std::optional<double> velocity;
+  std::optional<std::string> volume;  // checksum of the volume that a run's numbers must be of; none: of any
   bool provisional = false;
   bool urgent = false;  // before those that are not
+  bool stored = false;  // the mesh of the project will do where it is fresh, with what the last run of the volume says of its faces
 };
 
 struct MadeSurface {
   std::uint64_t number = 0;
   Id fault = 0;
   std::shared_ptr<const FaultSurface> surface;  // null where there is none
-  project::MeshRecord mesh;
+  project::Bytes chart;
+  tasks::TriangulateOptions options;
+  bool kept = false;    // the project has a new mesh
   std::string problem;  // why, or what the user should know
+  std::optional<project::FaultRun> run;
 };
 
 // Vertices and faces of a stored mesh, as views want them.
 std::shared_ptr<const FaultSurface> surface_of(const survey::Geometry& survey, const project::FaultRecord& fault,
-                                               const project::MeshRecord& mesh, bool provisional);
+                                               const project::MeshRecord& mesh, bool provisional,
+                                               const std::optional<double>& velocity);
 
 class SurfaceWorker {
  public:
   // made: called on the worker's thread.
-  SurfaceWorker(survey::Geometry survey, std::function<void(MadeSurface)> made);
+  SurfaceWorker(project::Project project, survey::Geometry survey, std::function<void(MadeSurface)> made);
   // Waits for the one under way, which is cancelled.
   ~SurfaceWorker();
   SurfaceWorker(const SurfaceWorker&) = delete;
@@ -52,7 +61,10 @@ class SurfaceWorker {
  private:
   void work();
   void make(const SurfaceRequest& request);
+  project::MeshRecord mesh_for(const SurfaceRequest& request, MadeSurface& made);
+  void keep(const SurfaceRequest& request, const project::MeshRecord& mesh, MadeSurface& made);
 
+  project::Project project_;  // of the thread
   const survey::Geometry survey_;
   const std::function<void(MadeSurface)> made_;
   JobContext job_;

@@ -1,16 +1,12 @@
 #include "ui/model/surfaces.h"
 
-#include <QTimer>
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <nlohmann/json.hpp>
+#include <span>
 #include <utility>
 
-#include "engine/extract/face_geometry.h"
 #include "engine/render/colour_map.h"
 #include "engine/tasks/statistics.h"
-#include "storage/base/log.h"
 #include "ui/model/engine_link.h"
 #include "ui/model/face_values.h"
 #include "ui/model/fault_commands.h"
@@ -19,12 +15,12 @@
 namespace footwall::ui {
 namespace {
 
-// "velocity" of the project, in m/s; nothing where it is not known.
-std::optional<double> velocity_of(const project::Project& project) {
-  const auto text = project.setting("velocity");
-  if (!text) return std::nullopt;
-  const double velocity = QString::fromStdString(*text).toDouble();
-  return velocity > 0 && std::isfinite(velocity) ? std::optional(velocity) : std::nullopt;
+tasks::TriangulateOptions task_options(const pillars::Options& options) {
+  return {.detail = options.detail, .max_edge = options.max_edge, .tie = options.tie_tolerance};
+}
+
+pillars::Options pillar_options(const tasks::TriangulateOptions& options) {
+  return {options.detail, options.max_edge, options.tie};
 }
 
 constexpr std::array kOffsets{"offset", "offset_voxels", "offset_score"};
@@ -35,20 +31,6 @@ bool diverges(const std::string& colour_map) {
   const auto all = render::ColourMap::all();
   const auto found = std::ranges::find(all, std::string_view(colour_map), &render::ColourMap::name);
   return found != all.end() && found->kind() == render::ColourMapKind::kDiverging;
-}
-
-pillars::Options options_of(const project::MeshRecord& mesh) {
-  pillars::Options options;
-  const auto json = nlohmann::json::parse(mesh.parameters, nullptr, false);
-  if (!json.is_object()) return options;
-  const auto take = [&json](const char* name, double& into) {
-    const auto found = json.find(name);
-    if (found != json.end() && found->is_number() && found->get<double>() > 0) into = found->get<double>();
-  };
-  take("detail", options.detail);
-  take("max_edge", options.max_edge);
-  take("tie", options.tie_tolerance);
-  return options;
 }
 
 }  // namespace
@@ -63,10 +45,11 @@ struct Surfaces::State {
     std::shared_ptr<const FaultSurface> surface;
     QString problem;
     FaceValues values;
-    pillars::Options options;
+    std::optional<pillars::Options> options;  // none: not known yet, those of its stored mesh
     project::Bytes chart;        // of its last mesh
     std::uint64_t asked = 0;     // the newest triangulation asked for; 0: none yet
     std::uint64_t made = 0;      // the newest that came
+    bool wants_run = false;      // the last run's numbers are to be taken
     std::uint64_t edit = 0;      // under which the engine has its surface; 0: it has not
     std::map<QString, std::shared_ptr<const FaceNumbers>> numbers;  // made when asked for
   };
@@ -78,11 +61,9 @@ struct Surfaces::State {
   EngineLink* engine;
   std::unique_ptr<SurfaceWorker> worker;
   std::map<Id, Entry> entries;
-  std::deque<Id> to_load;  // stored meshes not read yet
-  QTimer loading;
   std::uint64_t last_request = 0;
   std::vector<project::StatisticRecord> statistics;
-  std::optional<double> velocity;
+  std::optional<std::string> volume;  // that the values are of: its checksum
   struct KeptRange {
     std::set<Id> faults;
     QString statistic;
@@ -93,7 +74,7 @@ struct Surfaces::State {
   void start_worker() {
     worker.reset();
     if (!document.survey()) return;
-    worker = std::make_unique<SurfaceWorker>(*document.survey(), [this](MadeSurface made) {
+    worker = std::make_unique<SurfaceWorker>(document.project().beside(), *document.survey(), [this](MadeSurface made) {
       // The worker ends before this object does, and the receiver takes its waiting events along.
       QMetaObject::invokeMethod(
           &self, [this, made = std::move(made)]() mutable { take(std::move(made)); }, Qt::QueuedConnection);
@@ -102,51 +83,17 @@ struct Surfaces::State {
 
   // ---- surfaces ----
 
-  void load_next() {
-    if (to_load.empty() || worker == nullptr) {
-      loading.stop();
-      return;
-    }
-    const Id id = to_load.front();
-    to_load.pop_front();
-    const Fault* fault = document.fault(id);
-    if (fault == nullptr || entries[id].asked != 0) return;
-    try {
-      load(*fault, entries[id]);
-    } catch (const Error& error) {
-      entries[id].problem = QString::fromStdString(error.message());
-    }
-    Q_EMIT self.surfaces_changed({id});
-  }
-
-  void load(const Fault& fault, Entry& entry) {
-    const auto mesh = document.project().mesh(fault.record.id);
-    if (mesh) {
-      entry.options = options_of(*mesh);
-      entry.chart = mesh->chart;
-    }
-    if (!mesh || document.project().mesh_is_stale(fault.record.id)) {
-      ask(fault, entry, false);
-      return;
-    }
-    entry.asked = entry.made = ++last_request;
-    set_surface(entry, surface_of(*document.survey(), fault.record, *mesh, false));
-    take_stored_numbers(fault.record.id, entry);
-  }
-
-  void ask(const Fault& fault, Entry& entry, bool urgent) {
+  // stored: the mesh and the numbers that the project has will do, where they are fresh.
+  void ask(const Fault& fault, Entry& entry, bool urgent, bool stored) {
     if (worker == nullptr) return;
     const auto& pillars = document.shown_pillars(fault.record.id);
-    if (is_unassigned(fault) || (pillars.size() < 2 && !has_surface_file(fault))) {
+    const bool is_file = is_surface_file(fault);
+    if (is_unassigned(fault) || (pillars.size() < 2 && !is_file)) {
       entry.asked = entry.made = ++last_request;
       entry.problem.clear();
       worker->forget(fault.record.id);
       set_surface(entry, nullptr);
       Q_EMIT self.surfaces_changed({fault.record.id});
-      return;
-    }
-    if (has_surface_file(fault)) {
-      adopt_surface_file(fault, entry);
       return;
     }
     SurfaceRequest request;
@@ -157,29 +104,30 @@ struct Surfaces::State {
     constexpr std::size_t kSettled = 4;
     request.chart = fault.record.chart;
     if (request.chart.empty() && pillars.size() >= kSettled) request.chart = entry.chart;
-    request.options = {.detail = entry.options.detail, .max_edge = entry.options.max_edge,
-                       .tie = entry.options.tie_tolerance};
+    if (entry.options) request.options = task_options(*entry.options);
+    request.velocity = document.velocity();
+    request.volume = engine_volume();
     request.provisional = document.is_provisional(fault.record.id);
     request.urgent = urgent;
+    request.stored = is_file || (stored && !request.provisional);  // a file's triangles are as they are
     worker->ask(std::move(request));
   }
 
-  bool has_surface_file(const Fault& fault) const {
-    return fault.pillars.empty() && document.project().surface_of(fault.record.id).has_value();
+  // Its checksum; nothing without an engine.
+  std::optional<std::string> engine_volume() const {
+    if (engine == nullptr) return std::nullopt;
+    const auto found = std::ranges::find(document.volumes(), engine->volume(), &project::VolumeRecord::id);
+    return found == document.volumes().end() ? std::nullopt : std::optional(found->checksum);
   }
 
-  // A fault that is an imported surface: its triangles as they are.
-  void adopt_surface_file(const Fault& fault, Entry& entry) {
-    entry.asked = entry.made = ++last_request;
+  bool is_surface_file(const Fault& fault) const {
+    if (!fault.pillars.empty()) return false;
     try {
-      std::vector<std::string> notes;
-      const project::MeshRecord mesh = tasks::mesh_of_fault(document.project(), fault.record, {}, {}, &notes);
-      if (!document.read_only()) document.store().store_mesh(fault.record.id, mesh);
-      set_surface(entry, surface_of(*document.survey(), fault.record, mesh, false));
+      return document.project().surface_of(fault.record.id).has_value();
     } catch (const Error& error) {
-      entry.problem = QString::fromStdString(error.message());
+      Q_EMIT document.failed(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
+      return false;
     }
-    Q_EMIT self.surfaces_changed({fault.record.id});
   }
 
   void take(MadeSurface made) {
@@ -190,20 +138,13 @@ struct Surfaces::State {
     if (made.number <= entry.made) return;
     entry.made = made.number;
     entry.problem = QString::fromStdString(made.problem);
-    if (made.surface != nullptr) {
-      if (entry.chart.empty() || !made.surface->provisional) entry.chart = made.mesh.chart;
-      if (!made.surface->provisional && !document.read_only() && made.mesh.revision == fault->record.revision) {
-        try {
-          document.store().store_mesh(made.fault, made.mesh);
-          Q_EMIT document.meshes_changed({made.fault});
-        } catch (const Error& error) {
-          Q_EMIT document.failed(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
-        }
-      }
-    }
+    if (!entry.options) entry.options = pillar_options(made.options);
+    if (made.surface != nullptr && (entry.chart.empty() || !made.surface->provisional)) entry.chart = made.chart;
+    if (made.kept) Q_EMIT document.meshes_changed({made.fault});
     // While a hand is on it, the last surface stays where the pillars cannot make one for a moment.
     const bool keeps_last = made.surface == nullptr && document.is_provisional(made.fault);
     if (!keeps_last) set_surface(entry, made.surface);
+    if (made.run && entry.surface != nullptr && std::exchange(entry.wants_run, false)) take_run(*made.run, entry);
     Q_EMIT self.surfaces_changed({made.fault});
   }
 
@@ -217,7 +158,7 @@ struct Surfaces::State {
       for (const char* offset : kOffsets) entry.values.mark_stale(offset);
     }
     entry.numbers.clear();
-    if (entry.surface != nullptr) set_geometry(entry);
+    entry.values.scale("offset", "offset_voxels", "metres_along_normal");
     if (engine == nullptr || fault == 0) return;
     if (entry.surface != nullptr) {
       entry.edit = engine->put_fault(entry.surface);
@@ -228,45 +169,11 @@ struct Surfaces::State {
     }
   }
 
-  // What needs no voxels is known at once.
-  void set_geometry(Entry& entry) const {
-    const FaultSurface& surface = *entry.surface;
-    std::map<std::string, std::vector<double>> columns;
-    const auto column = [&](const char* name) -> std::vector<double>& {
-      columns[name].reserve(surface.faces.size());
-      return columns[name];
-    };
-    auto &area_voxels = column("area_voxels"), &area = column("area"), &dip = column("dip"),
-         &azimuth = column("dip_azimuth"), &metres = column("metres_along_normal");
-    for (const survey::LatticeTriangle& triangle : surface.lattice) {
-      const extract::FaceGeometry geometry = extract::face_geometry(*document.survey(), triangle, velocity);
-      area_voxels.push_back(geometry.area_voxels);
-      area.push_back(geometry.area);
-      dip.push_back(geometry.dip);
-      azimuth.push_back(geometry.dip_azimuth);
-      metres.push_back(geometry.metres_along_normal);
-    }
-    for (auto& [name, values] : columns) entry.values.set_geometry(name, std::move(values));
-  }
-
   // ---- numbers ----
 
-  // Of the last run that has the fault.
-  void take_stored_numbers(Id fault, Entry& entry) {
-    if (entry.surface == nullptr) return;
-    const auto runs = document.project().runs();
-    for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
-      const auto faults = document.project().run_faults(run->id);
-      if (std::ranges::find(faults, fault) == faults.end()) continue;
-      const project::FaultRun stored = document.project().fault_statistics(run->id, fault);
-      for (const auto& [statistic, values] : stored.statistics) {
-        if (entry.values.is_geometry(statistic)) continue;
-        for (std::size_t f = 0; f < values.size(); ++f) {
-          entry.values.set(stored.panels[f], stored.numbers[f], stored.lattice[f], statistic, values[f]);
-        }
-      }
-      break;
-    }
+  void take_run(const project::FaultRun& run, Entry& entry) {
+    entry.values.set(run.panels, run.numbers, run.lattice, run.statistics);
+    entry.values.scale("offset", "offset_voxels", "metres_along_normal");
     entry.numbers.clear();
   }
 
@@ -297,18 +204,6 @@ struct Surfaces::State {
     }
   }
 
-  // What is known is of the volume before.
-  void volume_changed() {
-    std::set<Id> faults;
-    for (auto& [fault, entry] : entries) {
-      entry.values.mark_all_stale();
-      entry.numbers.clear();
-      faults.insert(fault);
-    }
-    kept_range.reset();
-    Q_EMIT self.numbers_changed(faults);
-  }
-
   bool document_is_provisional() const {
     return std::ranges::any_of(entries, [this](const auto& entry) { return document.is_provisional(entry.first); });
   }
@@ -325,31 +220,70 @@ struct Surfaces::State {
         Q_EMIT self.surfaces_changed({id});
         continue;
       }
-      ask(*fault, entries[id], true);
+      ask(*fault, entries[id], true, false);
     }
   }
 
   void start_over() {
-    start_worker();
+    try {
+      start_worker();
+      statistics = tasks::known_statistics(document.project());
+    } catch (const Error& error) {
+      Q_EMIT document.failed(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
+    }
     entries.clear();
     kept_range.reset();
-    velocity = velocity_of(document.project());
+    volume = engine_volume();
+    for (const Fault& fault : document.faults()) {
+      entries[fault.record.id].wants_run = true;
+      ask(fault, entries[fault.record.id], false, true);
+    }
+  }
+
+  // A run that was added is shown where the engine has said nothing newer.
+  void runs_changed() {
     statistics = tasks::known_statistics(document.project());
-    to_load.clear();
-    for (const Fault& fault : document.faults()) to_load.push_back(fault.record.id);
-    loading.start(0);
+    for (const Fault& fault : document.faults()) {
+      const auto found = entries.find(fault.record.id);
+      if (found == entries.end() || found->second.surface == nullptr) continue;
+      Entry& entry = found->second;
+      if (entry.values.is_known("count") && !entry.values.any_stale()) continue;
+      entry.wants_run = true;
+      ask(fault, entry, false, true);
+    }
+  }
+
+  void volume_changed() {
+    const auto former = std::exchange(volume, engine_volume());
+    if (former == volume) return;  // two rows may be of the same samples
+    std::set<Id> faults;
+    for (auto& [id, entry] : entries) {
+      const Fault* fault = document.fault(id);
+      if (fault == nullptr) continue;
+      entry.values.mark_all_stale();
+      entry.numbers.clear();
+      entry.wants_run = true;
+      ask(*fault, entry, false, true);
+      faults.insert(id);
+    }
+    kept_range.reset();
+    Q_EMIT self.numbers_changed(faults);
+  }
+
+  // Another velocity: what is known of the faces stays, areas and dips follow.
+  void survey_changed() {
+    if (worker == nullptr) return start_over();
+    kept_range.reset();
+    for (const Fault& fault : document.faults()) ask(fault, entries[fault.record.id], false, true);
   }
 };
 
 Surfaces::Surfaces(Document& document, EngineLink* engine, QObject* parent)
     : QObject(parent), state_(std::make_unique<State>(*this, document, engine)) {
-  connect(&state_->loading, &QTimer::timeout, this, [this] { state_->load_next(); });
   connect(&document, &Document::shapes_changed, this,
           [this](const std::set<Id>& faults) { state_->shapes_changed(faults); });
-  connect(&document, &Document::survey_changed, this, [this] { state_->start_over(); });
-  connect(&document, &Document::runs_changed, this, [this] {
-    state_->statistics = tasks::known_statistics(state_->document.project());
-  });
+  connect(&document, &Document::survey_changed, this, [this] { state_->survey_changed(); });
+  connect(&document, &Document::runs_changed, this, [this] { state_->runs_changed(); });
   if (engine != nullptr) {
     connect(engine, &EngineLink::numbers, this, [this](const EngineNumbers& answer) { state_->take_answer(answer); });
     connect(engine, &EngineLink::state_changed, this, [this] { Q_EMIT numbers_changed({}); });
@@ -425,7 +359,7 @@ std::optional<std::pair<double, double>> Surfaces::range(const std::set<Id>& fau
 
 pillars::Options Surfaces::options(Id fault) const {
   const auto found = state_->entries.find(fault);
-  return found == state_->entries.end() ? pillars::Options{} : found->second.options;
+  return found == state_->entries.end() ? pillars::Options{} : found->second.options.value_or(pillars::Options{});
 }
 
 void Surfaces::set_options(Id id, const pillars::Options& options) {
@@ -433,11 +367,10 @@ void Surfaces::set_options(Id id, const pillars::Options& options) {
   if (fault == nullptr) return;
   State::Entry& entry = state_->entries[id];
   entry.options = options;
-  state_->ask(*fault, entry, true);
+  state_->ask(*fault, entry, true, false);
 }
 
 bool Surfaces::is_settled() const {
-  if (!state_->to_load.empty()) return false;
   const bool engine_answers = state_->engine != nullptr && state_->engine->state() != EngineLink::State::kOff &&
                               state_->engine->state() != EngineLink::State::kLost;
   return std::ranges::all_of(state_->entries, [&](const auto& entry) {
@@ -446,24 +379,23 @@ bool Surfaces::is_settled() const {
   });
 }
 
-void Surfaces::store_live_run() {
-  Document& document = state_->document;
-  if (state_->engine == nullptr || document.read_only()) return;
+std::optional<LiveRun> Surfaces::live_run() const {
+  const Document& document = state_->document;
+  if (state_->engine == nullptr) return std::nullopt;
   const Id volume_id = state_->engine->volume();
   const auto volume = std::ranges::find(document.volumes(), volume_id, &project::VolumeRecord::id);
-  if (volume == document.volumes().end()) return;
-  project::RunRecord run;
-  run.name = "live";
-  run.live = true;
-  run.volume = volume->name;
-  run.volume_checksum = volume->checksum;
-  run.parameters = R"({"strategy":"live"})";
-  std::vector<project::FaultRun> faults;
+  if (volume == document.volumes().end()) return std::nullopt;
+  LiveRun live;
+  live.run.name = "live";
+  live.run.live = true;
+  live.run.volume = volume->name;
+  live.run.volume_checksum = volume->checksum;
+  live.run.parameters = R"({"strategy":"live"})";
   for (const auto& [id, entry] : state_->entries) {
     const Fault* fault = document.fault(id);
     if (fault == nullptr || entry.surface == nullptr || entry.surface->provisional) continue;
     if (!entry.values.is_known("count") || entry.values.any_stale("count")) continue;
-    project::FaultRun& one = faults.emplace_back();
+    project::FaultRun& one = live.faults.emplace_back();
     one.fault = id;
     one.fault_name = fault->record.name;
     one.revision = entry.surface->revision;
@@ -473,18 +405,20 @@ void Surfaces::store_live_run() {
       one.numbers.push_back(face.n);
     }
     for (const project::StatisticRecord& statistic : state_->statistics) {
-      const auto values = entry.values.values().find(statistic.name);
-      if (values == entry.values.values().end() || entry.values.any_stale(statistic.name)) continue;
-      one.statistics[statistic.name] = values->second;
+      const std::vector<double>* values = entry.values.find(statistic.name);
+      if (values != nullptr && !entry.values.any_stale(statistic.name)) one.statistics[statistic.name] = *values;
     }
   }
-  if (faults.empty()) return;
-  try {
-    document.store().register_statistics(tasks::stored_statistics());
-    document.store().add_run(run, faults);
-  } catch (const Error& error) {
-    log::warn("the live colours could not be stored: " + error.message());
-  }
+  return live.faults.empty() ? std::nullopt : std::optional(std::move(live));
+}
+
+void Surfaces::store_live_run() {
+  if (const auto live = live_run()) store(state_->document.store(), *live);
+}
+
+void store(project::Project& project, const LiveRun& live) {
+  project.register_statistics(tasks::stored_statistics());
+  project.add_run(live.run, live.faults);
 }
 
 }  // namespace footwall::ui

@@ -29,6 +29,12 @@ struct FaultSurface {
   std::vector<project::MeshFace> faces;
   std::vector<survey::LatticeTriangle> lattice;
   int side = 1;  // 1 or -1: windings' normals times this point to the fault's side, as offsets count
+  // What needs no voxels, by statistic, one value a face: area, dip ...
+  std::map<std::string, std::vector<double>> geometry;
+  std::vector<std::uint32_t> by_name;  // numbers of faces by rising (panel, n); empty: they stand so already
+
+  // The face of that name, looked for at `guess` first; faces.size() where there is none.
+  std::size_t place_of(Id panel, std::int32_t n, std::size_t guess) const;
 };
 
 // How much its colours are worth, as ui.md's four states.
@@ -43,6 +49,13 @@ struct FaceNumbers {
 
 // Whether the engine tells this statistic (an offset) only when nothing else is to be done.
 bool comes_late(const QString& statistic);
+// The engine's numbers as a run of the project, which takes the place of the former live one of the volume.
+struct LiveRun {
+  project::RunRecord run;
+  std::vector<project::FaultRun> faults;
+};
+// Throws what the project refuses. May run on any thread that the project belongs to.
+void store(project::Project& project, const LiveRun& live);
 
 class EngineLink;
 
@@ -73,7 +86,9 @@ class Surfaces final : public QObject {
   // Nothing is being triangulated, and no answer of the engine is awaited. Offsets are not waited for: they
   // take long, and come fault by fault while nothing else is to be done.
   bool is_settled() const;
-  // Keeps what is known now as the live run of the engine's volume, in the project. Nothing where nothing is known.
+  // What is known now of the engine's volume, of those faults that are wholly fresh; nothing where nothing is known.
+  std::optional<LiveRun> live_run() const;
+  // Keeps it in the document's project, at once. Throws what the project refuses.
   void store_live_run();
 
  Q_SIGNALS:

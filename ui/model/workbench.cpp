@@ -62,7 +62,12 @@ Workbench::Workbench(project::Project opened, const EngineLink::Options& engine_
 }
 
 Workbench::~Workbench() {
-  if (!document.read_only()) surfaces.store_live_run();
+  if (document.read_only()) return;
+  try {
+    surfaces.store_live_run();
+  } catch (const Error& error) {
+    log::warn("the live colours could not be stored: " + error.message());
+  }
   store_display();
 }
 
@@ -79,8 +84,20 @@ void Workbench::store_display() {
 std::unique_ptr<Workbench> open_workbench(const std::filesystem::path& path, const EngineLink::Options& engine,
                                           QString* held) {
   held->clear();
+  std::unique_ptr<EditSocket> edits;
+  project::OpenOptions options;
   try {
-    return std::make_unique<Workbench>(project::Project::open(path, project::OpenMode::kWrite), engine);
+    edits = std::make_unique<EditSocket>();
+    options.edit_socket = edits->path();
+  } catch (const Error& error) {
+    log::warn("no edits are taken from other programs: " + error.message());
+  }
+  try {
+    auto workbench =
+        std::make_unique<Workbench>(project::Project::open(path, project::OpenMode::kWrite, options), engine);
+    if (edits) edits->serve(workbench->document);
+    workbench->edits = std::move(edits);
+    return workbench;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::kHeld) throw;
     *held = QString::fromStdString(error.message());

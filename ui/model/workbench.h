@@ -5,6 +5,7 @@
 
 #include "ui/model/display.h"
 #include "ui/model/document.h"
+#include "ui/model/edit_socket.h"
 #include "ui/model/engine_link.h"
 #include "ui/model/jobs.h"
 #include "ui/model/mouse_bindings.h"
@@ -30,6 +31,7 @@ struct Workbench {
   EngineLink engine;
   Surfaces surfaces;
   Jobs jobs;
+  std::unique_ptr<EditSocket> edits;  // null where none are taken
   MouseChoice mouse;
 
  private:

@@ -1,3 +1,4 @@
+#include "ui/model/update_all.h"
 #include "ui/window/action_groups.h"
 #include "ui/window/dialogs.h"
 #include "ui/window/main_window.h"
@@ -5,11 +6,12 @@
 namespace footwall::ui {
 namespace {
 
-// The engine gets every fault anew, and answers with the statistics of all their faces.
 void update_all(MainWindow& window) {
-  Workbench& bench = *window.workbench();
-  bench.engine.start();
-  bench.engine.set_volume(bench.display.volume());
+  try {
+    start_update(*window.workbench());
+  } catch (const Error& error) {
+    window.tell_failure(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
+  }
 }
 
 void cancel_jobs(MainWindow& window) {
@@ -38,11 +40,14 @@ std::vector<ActionRow> compute_actions() {
   using M = Menu;
   return {
       {"compute.update-all", M::kCompute, QT_TRANSLATE_NOOP("Actions", "&Update all"), "Ctrl+U F5", "update",
-       QT_TRANSLATE_NOOP("Actions", "Statistics of all faces of all faults, from the volume shown"),
+       QT_TRANSLATE_NOOP("Actions", "Statistics of all faces of all faults, from the volume shown, kept in the project"),
        kProject | kSurvey | kVolume, update_all},
       {"compute.run", M::kCompute, QT_TRANSLATE_NOOP("Actions", "&Run…"), "Ctrl+Alt+U", "update",
        QT_TRANSLATE_NOOP("Actions", "Statistics of all or selected faults as a run that is kept, by a job"),
        kProject | kWriting | kSurvey | kVolume | kFault, open_run_dialog},
+      {"compute.compare", M::kCompute, QT_TRANSLATE_NOOP("Actions", "Com&pare runs…"), "Ctrl+Alt+C", "compare",
+       QT_TRANSLATE_NOOP("Actions", "One statistic of a fault in two runs side by side, and their difference"),
+       kProject | kSurvey, open_compare_dialog},
       {"compute.isosurface", M::kCompute, QT_TRANSLATE_NOOP("Actions", "&Isosurface…"), "Ctrl+Alt+O", "volume",
        QT_TRANSLATE_NOOP("Actions", "A surface of one value of the volume shown, which follows a slider"),
        kProject | kSurvey | kVolume, [](MainWindow& window) { open_isosurface_dialog(window, 0); }},

@@ -4,11 +4,14 @@
 
 #include "storage/base/error.h"
 #include "storage/formats/segy/segy_file.h"
+#include "ui/dialogs/compare_dialog.h"
 #include "ui/dialogs/export_dialog.h"
 #include "ui/dialogs/import_segy_dialog.h"
 #include "ui/dialogs/isosurface_dialog.h"
 #include "ui/dialogs/run_dialog.h"
 #include "ui/dialogs/transform_dialog.h"
+#include "ui/dialogs/trim_history_dialog.h"
+#include "ui/window/banner.h"
 #include "ui/window/main_window.h"
 #include "ui/window/view_area.h"
 #include "ui/window/view_tile.h"
@@ -76,6 +79,34 @@ void open_transform_dialog(MainWindow& window) {
                                window.tr("unlock it first"));
   }
   show(new TransformDialog(*window.workbench(), &window));
+void open_compare_dialog(MainWindow& window) {
+  show(new CompareDialog(*window.workbench(), &window));
+}
+
+void open_trim_history_dialog(MainWindow& window) {
+  window.banners().remove(QStringLiteral("history"));
+  show(new TrimHistoryDialog(*window.workbench(), &window));
+}
+
+void warn_of_history(MainWindow& window) {
+  constexpr std::int64_t kLarge = std::int64_t{256} << 20;
+  const project::Project& project = window.workbench()->document.project();
+  if (project.read_only()) return;
+  const std::int64_t bytes = project.history_size().bytes;
+  const auto days = history_keep_days(project);
+  const std::int64_t old = days ? project.history_size(days_ago(*days)).steps : 0;
+  QString text;
+  if (bytes > kLarge) text = window.tr("The history takes %1 MiB of the project.").arg(bytes >> 20);
+  if (old > 0) text = window.tr("%1 steps of the history are older than %2 days.").arg(old).arg(*days);
+  if (text.isEmpty()) return;
+  window.banners().show_banner(QStringLiteral("history"),
+                               {.kind = BannerArea::Kind::kNotice,
+                                .text = text,
+                                .hint = window.tr("nothing is dropped by itself"),
+                                .buttons = {{window.tr("Trim…"), [&window] { open_trim_history_dialog(window); }},
+                                            {window.tr("Keep all"), [&window] {
+                                               window.banners().remove(QStringLiteral("history"));
+                                             }}}});
 }
 
 void open_isosurface_dialog(MainWindow& window, Id isosurface) {

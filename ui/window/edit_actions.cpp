@@ -5,6 +5,7 @@
 
 #include "ui/panels/project_panel.h"
 #include "ui/window/action_groups.h"
+#include "ui/window/dialogs.h"
 #include "ui/window/docks.h"
 #include "ui/window/main_window.h"
 
@@ -122,6 +123,9 @@ std::vector<ActionRow> first_actions() {
       {"edit.redo", M::kEdit, QT_TRANSLATE_NOOP("Actions", "&Redo"), "Ctrl+Shift+Z Ctrl+Y", "redo",
        QT_TRANSLATE_NOOP("Actions", "Do again what was taken back"), kRedo,
        [](MainWindow& window) { window.workbench()->document.redo(); }},
+      {"edit.trim-history", M::kEdit, QT_TRANSLATE_NOOP("Actions", "Trim &history…"), "Ctrl+Alt+H", "history-trim",
+       QT_TRANSLATE_NOOP("Actions", "Drop the oldest steps of the history for good, to make the project smaller"),
+       kProject | kWriting, open_trim_history_dialog},
       {"edit.rename", M::kEdit, QT_TRANSLATE_NOOP("Actions", "Re&name"), "F2", "rename",
        QT_TRANSLATE_NOOP("Actions", "Give what is selected in the project panel another name"),
        kProject | kWriting, rename, nullptr, true},

@@ -2,9 +2,11 @@
 #include <QCoreApplication>
 #include <QInputDialog>
 #include <algorithm>
+#include <functional>
 
 #include "engine/tasks/triangulate.h"
 #include "ui/model/fault_commands.h"
+#include "ui/model/project_job.h"
 #include "ui/window/action_groups.h"
 #include "ui/window/dialogs.h"
 #include "ui/window/main_window.h"
@@ -106,19 +108,27 @@ void resample_to_spacing(MainWindow& window) {
   if (ok) resample_by_spacing(document(window), chosen_pillars(window), metres);
 }
 
-// A task of the engine's that edits the project itself, for each chosen fault.
-template <class Task>
-void for_faults(MainWindow& window, const Task& task) {
-  Document& document = window.workbench()->document;
+using FaultTask = std::function<void(project::Project&, const project::FaultRecord&, const JobContext&)>;
+
+// A task of the engine's that edits the project itself, for each chosen fault, as a job.
+void for_faults(MainWindow& window, const QString& title, const FaultTask& task) {
+  std::vector<Id> faults;
+  for (const Id id : chosen_faults(window)) {
+    const Fault* fault = document(window).fault(id);
+    if (fault != nullptr && !is_unassigned(*fault)) faults.push_back(id);
+  }
   try {
-    for (const Id id : chosen_faults(window)) {
-      const Fault* fault = document.fault(id);
-      if (fault != nullptr && !is_unassigned(*fault)) task(document.store(), fault->record);
-    }
+    start_on_project(*window.workbench(), title,
+                     [faults, task](project::Project& project, const JobContext& job) {
+                       const auto share = [&](std::size_t n) {
+                         return static_cast<double>(n) / static_cast<double>(faults.size());
+                       };
+                       for (std::size_t n = 0; n < faults.size(); ++n)
+                         task(project, project.fault(faults[n]), job.part(share(n), share(n + 1)));
+                     });
   } catch (const Error& error) {
     window.tell_failure(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
   }
-  document.refresh();
 }
 
 void interpolate(MainWindow& window) {
@@ -126,15 +136,17 @@ void interpolate(MainWindow& window) {
   const double every = QInputDialog::getDouble(&window, translated("Interpolate pillars"),
                                                translated("Lines between pillars:"), 10, 1, 10000, 0, &ok);
   if (!ok) return;
-  for_faults(window, [every](project::Project& project, const project::FaultRecord& fault) {
-    tasks::interpolate_fault(project, fault, {.every = every, .tolerance = {}}, {});
-  });
+  for_faults(window, translated("Interpolate pillars"),
+             [every](project::Project& project, const project::FaultRecord& fault, const JobContext& job) {
+               tasks::interpolate_fault(project, fault, {.every = every, .tolerance = {}}, job);
+             });
 }
 
 void drop_interpolated(MainWindow& window) {
-  for_faults(window, [](project::Project& project, const project::FaultRecord& fault) {
-    tasks::remove_interpolated(project, fault);
-  });
+  for_faults(window, translated("Drop interpolated pillars"),
+             [](project::Project& project, const project::FaultRecord& fault, const JobContext&) {
+               tasks::remove_interpolated(project, fault);
+             });
 }
 
 }  // namespace

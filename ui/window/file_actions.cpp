@@ -4,10 +4,11 @@
 #include <QFileInfo>
 #include <QInputDialog>
 #include <QStandardPaths>
+#include <memory>
 
-#include "engine/tasks/export_sticks.h"
 #include "engine/tasks/new_project.h"
 #include "storage/formats/stick_formats.h"
+#include "ui/dialogs/export_choice.h"
 #include "ui/window/action_groups.h"
 #include "ui/window/dialogs.h"
 #include "ui/window/banner.h"
@@ -90,15 +91,23 @@ void export_sticks(MainWindow& window) {
       name = format.name;
     }
   }
+  ExportChoice choice;
+  choice.kind = ExportChoice::Kind::kSticks;
+  choice.file = path;
+  choice.stick_format = name;
+  Workbench& bench = *window.workbench();
+  auto done = std::make_shared<Exported>();
+  const QString file = QFileInfo(path).fileName();
   try {
-    const tasks::SticksExported done =
-        tasks::export_sticks(window.workbench()->document.project(), path.toStdString(), name, {});
-    window.banners().show_banner(QStringLiteral("export"),
-                                 {.text = translated("%1: %2 pillars of %3 faults written.")
-                                              .arg(QFileInfo(path).fileName())
-                                              .arg(done.pillars)
-                                              .arg(done.faults),
-                                  .passes = true});
+    const auto write = prepare_export(bench.document.project(), choice, {});
+    bench.jobs.start(
+        translated("Export %1").arg(file), [write, done](const JobContext& job) { *done = write(job); },
+        [&window, done, file] {
+          window.banners().show_banner(QStringLiteral("export"),
+                                       {.text = translated("%1: %2 written.").arg(file, done->text),
+                                        .hint = done->notices.join(QStringLiteral("; ")),
+                                        .passes = true});
+        });
   } catch (const Error& error) {
     tell(window, error);
   }
@@ -155,7 +164,7 @@ std::vector<ActionRow> file_actions() {
        "export", QT_TRANSLATE_NOOP("Actions", "Write all picked pillars as fault sticks"), kProject,
        export_sticks},
       {"file.export", M::kFile, QT_TRANSLATE_NOOP("Actions", "E&xport…"), "Ctrl+Shift+E", "export",
-       QT_TRANSLATE_NOOP("Actions", "Write faces with their statistics, sticks or a picture"), kProject,
+       QT_TRANSLATE_NOOP("Actions", "Write faces with their statistics, sticks, volumes or a picture"), kProject,
        open_export_dialog},
       {"file.picture", M::kFile, QT_TRANSLATE_NOOP("Actions", "Save &picture…"), "Ctrl+P", "picture",
        QT_TRANSLATE_NOOP("Actions", "Write a picture of the window as PNG"), kNothing, save_picture},

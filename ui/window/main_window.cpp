@@ -21,6 +21,7 @@
 #include "engine/tasks/relink.h"
 #include "storage/base/log.h"
 #include "ui/model/fault_commands.h"
+#include "ui/model/project_job.h"
 #include "ui/window/actions.h"
 #include "ui/window/banner.h"
 #include "ui/window/docks.h"
@@ -207,6 +208,16 @@ void MainWindow::connect_workbench() {
                             &Document::volumes_changed}) {
     connect(&bench.document, signal, actions_, &Actions::refresh);
   }
+  // Now and then: the sizes of all steps are added up.
+  constexpr std::size_t kSteps = 256;
+  connect(&bench.document, &Document::history_changed, this, [this, &document = bench.document] {
+    if (document.history().size() % kSteps != 0) return;
+    try {
+      warn_of_history(*this);
+    } catch (const Error& error) {
+      tell_failure(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
+    }
+  });
   connect(&bench.selection, &Selection::changed, actions_, &Actions::refresh);
   connect(&bench.picking, &Picking::tool_changed, actions_, &Actions::refresh);
   for (const auto signal : {&Display::samples_changed, &Display::faces_changed, &Display::scene_changed}) {
@@ -267,20 +278,29 @@ void MainWindow::show_lasting_banners(const QString& held) {
                                             QString::fromStdString(missing.reason)),
                            .buttons = {{tr("Relink…"), [this, volume] { relink_missing(volume); }}}});
   }
+  warn_of_history(*this);
   show_engine_banner();
 }
 
 void MainWindow::relink_missing(const QString& volume) {
   const QString file = QFileDialog::getOpenFileName(this, tr("Where is the volume %1 now?").arg(volume), {},
                                                     tr("Volumes (*.h5);;All files (*)"));
-  if (file.isEmpty() || !workbench_) return;
+  if (!file.isEmpty() && workbench_) relink(volume, file);
+}
+
+void MainWindow::relink(const QString& volume, const QString& file) {
+  auto relinked = std::make_shared<QString>();
   try {
-    tasks::relink_volume(workbench_->document.store(), volume.toStdString(), file.toStdString());
+    start_on_project(
+        *workbench_, tr("Relink %1").arg(volume.isEmpty() ? QFileInfo(file).fileName() : volume),
+        [relinked, volume, file](project::Project& project, const JobContext&) {
+          *relinked = QString::fromStdString(
+              tasks::relink_volume(project, volume.toStdString(), file.toStdString()));
+        },
+        [this, relinked] { banners_->remove(QStringLiteral("missing-%1").arg(*relinked)); });
   } catch (const Error& error) {
-    return tell_failure(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
+    tell_failure(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
   }
-  banners_->remove(QStringLiteral("missing-%1").arg(volume));
-  workbench_->document.reload_volumes();
 }
 
 void MainWindow::follow_changes() {

@@ -48,6 +48,8 @@ class MainWindow final : public QMainWindow {
   void take_file(const QString& path);
   // A synthetic project with three faults at this path, made by a job, then opened.
   void make_demo(const QString& path);
+  // Where the file of a volume went, by a job; volume: empty for the one that the file turns out to be.
+  void relink(const QString& volume, const QString& file);
   // One line of what went wrong; goes by itself.
   void tell_failure(const QString& message, const QString& hint);
   // Whether all that the window shows has arrived: sections read, surfaces made, no job running.

@@ -2,7 +2,6 @@
 #include <QInputDialog>
 #include <algorithm>
 
-#include "engine/tasks/relink.h"
 #include "ui/window/action_groups.h"
 #include "ui/window/docks.h"
 #include "ui/window/main_window.h"
@@ -10,15 +9,10 @@
 namespace footwall::ui {
 namespace {
 
-constexpr const char* kVelocitySetting = "velocity";
 constexpr double kUsualVelocity = 2400;
 
 QString translated(const char* text) {
   return QCoreApplication::translate("Actions", text);
-}
-
-void tell(MainWindow& window, const Error& error) {
-  window.tell_failure(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
 }
 
 void show_survey(MainWindow& window) {
@@ -28,33 +22,18 @@ void show_survey(MainWindow& window) {
 
 void set_velocity(MainWindow& window) {
   Document& document = window.workbench()->document;
-  try {
-    const auto stored = document.project().setting(kVelocitySetting);
-    bool known = false;
-    const double now = stored ? QString::fromStdString(*stored).toDouble(&known) : 0;
-    bool ok = false;
-    const double metres =
-        QInputDialog::getDouble(&window, translated("Velocity"),
-                                translated("Velocity of the survey in m/s, for areas and dips in metres:"),
-                                known ? now : kUsualVelocity, 100, 10000, 0, &ok);
-    if (!ok) return;
-    document.store().set_setting(kVelocitySetting, std::to_string(metres));
-  } catch (const Error& error) {
-    return tell(window, error);
-  }
-  document.refresh();
+  bool ok = false;
+  const double metres =
+      QInputDialog::getDouble(&window, translated("Velocity"),
+                              translated("Velocity of the survey in m/s, for areas and dips in metres:"),
+                              document.velocity().value_or(kUsualVelocity), 100, 10000, 0, &ok);
+  if (ok) document.set_velocity(metres);
 }
 
 void relink(MainWindow& window) {
   const QString file = QFileDialog::getOpenFileName(&window, translated("Where is the volume now?"), {},
                                                     translated("Volumes (*.h5);;All files (*)"));
-  if (file.isEmpty()) return;
-  try {
-    tasks::relink_volume(window.workbench()->document.store(), {}, file.toStdString());
-  } catch (const Error& error) {
-    return tell(window, error);
-  }
-  window.workbench()->document.reload_volumes();
+  if (!file.isEmpty()) window.relink(QString(), file);
 }
 
 void next_volume(MainWindow& window) {

@@ -27,6 +27,7 @@ void add_stop(console::Program& program);
 void add_views(console::Program& program);
 void add_pack(console::Program& program);
 void add_relink(console::Program& program);
+void add_compare(console::Program& program);
 void add_doctor(console::Program& program);
 void add_workload(console::Program& program);  // workload make, workload run
 void add_bench(console::Program& program);

@@ -140,6 +140,18 @@ auto Database::guarded(const Call& call) const {
   }
 }
 
+void Database::vacuum() {
+  // SQLite attaches the new file for the moment.
+  sqlite3_limit(handle(), SQLITE_LIMIT_ATTACHED, 1);
+  try {
+    exec("VACUUM");
+  } catch (...) {
+    sqlite3_limit(handle(), SQLITE_LIMIT_ATTACHED, 0);
+    throw;
+  }
+  sqlite3_limit(handle(), SQLITE_LIMIT_ATTACHED, 0);
+}
+
 void Database::exec(const std::string& sql) {
   guarded([&] { database_->exec(sql); });
 }

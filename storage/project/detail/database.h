@@ -46,6 +46,8 @@ class Database {
   const std::filesystem::path& path() const { return path_; }
   // Error for the result code of a call to SQLite itself: "cannot <doing> PATH: reason".
   Error failure(int code, std::string_view doing) const;
+  // Rewrites the file without its free pages. Not within a transaction. Throws kHeld while somebody reads.
+  void vacuum();
   // Finalizes the kept statements and closes.
   void close();
 

@@ -13,11 +13,13 @@ namespace footwall::project {
 struct Project::State {
   std::filesystem::path path;
   FileSystem file_system = FileSystem::kLocal;
-  std::unique_ptr<detail::WriterLock> lock;  // null: read-only
+  detail::Access access = detail::Access::kRead;
+  std::shared_ptr<detail::WriterLock> lock;  // null: read-only; shared by the connections beside one another
   std::unique_ptr<detail::Database> database;
   bool lost = false;  // the lock was taken over
   bool editing = false;
   int version = 0;
+  std::vector<Migration> migrations;
   std::vector<std::string> notices;
   Regenerator regenerator;
 

@@ -168,4 +168,42 @@ std::vector<HistoryStep> UndoLog::steps(std::int64_t first) const {
   return steps;
 }
 
+namespace {
+
+// Steps below this number would be dropped: they are older than `before`, and none before them is not.
+constexpr const char* kFirstKept =
+    "SELECT coalesce(min(id), 9223372036854775807) FROM edit WHERE undone = 1 OR made >= ?";
+
+}  // namespace
+
+HistorySize UndoLog::size(const std::optional<std::string>& before) const {
+  constexpr const char* kSize =
+      "SELECT count(*), coalesce(sum(length(changeset) + length(name)), 0) FROM edit WHERE id < ?";
+  std::int64_t end = std::numeric_limits<std::int64_t>::max();
+  if (before) {
+    Query row(database_, kFirstKept, *before);
+    require(row.next(), "a query for one number gave no row");
+    end = row.integer(0);
+  }
+  Query row(database_, kSize, end);
+  require(row.next(), "a query for one row gave none");
+  return {row.integer(0), row.integer(1)};
+}
+
+HistorySize UndoLog::trim(const std::string& before) {
+  const HistorySize dropped = size(before);
+  if (dropped.steps == 0) return dropped;
+  std::int64_t end = 0;
+  {
+    Query row(database_, kFirstKept, before);
+    require(row.next(), "a query for one number gave no row");
+    end = row.integer(0);
+  }
+  Query(database_, "DELETE FROM edit WHERE id < ?", end).run();
+  Query(database_, "INSERT INTO event(made, what) VALUES(?, ?)", now_text(),
+        fmt::format("{} steps of the history before {} dropped", dropped.steps, before))
+      .run();
+  return dropped;
+}
+
 }  // namespace footwall::project::detail

@@ -37,6 +37,9 @@ class UndoLog {
   std::optional<std::string> redo();
   // Those of this number and later ones, oldest first.
   std::vector<HistoryStep> steps(std::int64_t first) const;
+  // See Project::history_size() and trim_history().
+  HistorySize size(const std::optional<std::string>& before) const;
+  HistorySize trim(const std::string& before);
 
  private:
   std::int64_t first_undone() const;  // 0 where none is

@@ -21,6 +21,7 @@ class ExportDialogTest final : public QObject {
   void writes_sticks_of_one_fault();
   void says_why_faces_cannot_be_written();
   void a_picture_is_left_to_its_view();
+  void writes_volumes_as_a_job();
 };
 
 namespace {
@@ -93,6 +94,32 @@ void ExportDialogTest::a_picture_is_left_to_its_view() {
   ExportDialog without(workbench, {});
   QCOMPARE(without.findChild<QComboBox*>(QStringLiteral("kind"))->findData(static_cast<int>(Kind::kPicture)),
            -1);
+}
+
+void ExportDialogTest::writes_volumes_as_a_job() {
+  const SampleProject sample;
+  Workbench workbench(sample.open(), {});
+  ExportDialog dialog(workbench, {});
+  const project::VolumeRecord volume = workbench.document.volumes()[0];
+  const std::map<Kind, QByteArray> heads{{Kind::kSegy, QByteArray()},
+                                         {Kind::kVti, QByteArray("<?xml")},
+                                         {Kind::kNrrd, QByteArray("NRRD")},
+                                         {Kind::kRaw, QByteArray()}};
+  for (const auto& [kind, head] : heads) {
+    dialog.choose(kind);
+    QVERIFY(dialog.findChild<QComboBox*>(QStringLiteral("volume"))->isEnabled());
+    QVERIFY(!dialog.findChild<QComboBox*>(QStringLiteral("fault"))->isEnabled());
+    const QString file = dialog.choice().file;
+    QSignalSpy exported(&dialog, &ExportDialog::exported);
+    dialog.export_chosen();
+    QVERIFY2(exported.wait(60'000), qPrintable(dialog.message()));
+    const QByteArray written = content(file);
+    const qint64 samples = volume.dims[0] * volume.dims[1] * volume.dims[2] * 4;
+    QVERIFY2(written.size() >= samples, qPrintable(file));
+    if (kind == Kind::kRaw) QCOMPARE(written.size(), samples);
+    QVERIFY2(written.startsWith(head), qPrintable(file));
+    QVERIFY2(dialog.message().startsWith(QString::fromStdString(volume.name)), qPrintable(dialog.message()));
+  }
 }
 
 static const RegisterTest<ExportDialogTest> registered;

@@ -2,7 +2,9 @@
 
 #include <QSignalSpy>
 #include <QTest>
+#include <cmath>
 
+#include "ui/model/surfaces.h"
 #include "ui/sample_project.h"
 #include "ui/test_class.h"
 
@@ -16,6 +18,7 @@ class DocumentTest final : public QObject {
   void shows_provisional_pillars_until_the_edit();
   void goes_to_any_step_of_the_history();
   void says_what_the_project_refused();
+  void metres_follow_the_velocity();
 };
 
 void DocumentTest::tells_what_an_edit_changed() {
@@ -79,6 +82,31 @@ void DocumentTest::says_what_the_project_refused() {
   QVERIFY(!document.edit("Rename", [&](project::Interpretation& now) { now.rename_fault(fault, ""); }));
   QCOMPARE(failed.size(), 1);
   QVERIFY(!failed[0][0].toString().isEmpty());
+}
+
+void DocumentTest::metres_follow_the_velocity() {
+  const SampleProject sample;
+  Document document(sample.open());
+  Surfaces surfaces(document, nullptr);
+  QTRY_VERIFY_WITH_TIMEOUT(surfaces.is_settled(), 60'000);
+  const Id fault = document.faults().front().record.id;
+  const auto first = [&](const char* statistic) { return surfaces.numbers(fault, statistic)->values[0]; };
+  const auto is_at_rest = [&](double velocity) {
+    return document.velocity() == velocity && surfaces.is_settled();
+  };
+  QSignalSpy survey(&document, &Document::survey_changed);
+  document.set_velocity(2000);
+  QCOMPARE(survey.size(), 1);
+  QTRY_VERIFY_WITH_TIMEOUT(is_at_rest(2000), 60'000);
+  const double slow = first("area"), dip = first("dip"), voxels = first("area_voxels");
+  QVERIFY(std::isfinite(slow));
+  document.set_velocity(4000);
+  QTRY_VERIFY_WITH_TIMEOUT(is_at_rest(4000), 60'000);
+  QVERIFY(first("area") > slow);
+  QVERIFY(first("dip") > dip);
+  QCOMPARE(first("area_voxels"), voxels);
+  document.set_velocity(4000);  // nothing new
+  QCOMPARE(survey.size(), 2);
 }
 
 static const RegisterTest<DocumentTest> kRegistered;

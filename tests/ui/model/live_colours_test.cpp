@@ -6,12 +6,16 @@
 #include <csignal>
 
 #include "engine/service/client/engine_client.h"
+#include "engine/synthetic/registry.h"
+#include "engine/tasks/add_volume.h"
 #include "engine/tasks/extract_run.h"
 #include "ui/model/accept_shift.h"
+#include "engine/tasks/volume_sources.h"
 #include "ui/model/engine_link.h"
 #include "ui/model/fault_commands.h"
 #include "ui/model/surfaces.h"
 #include "ui/model/tour.h"
+#include "ui/model/update_all.h"
 #include "ui/sample_project.h"
 #include "ui/test_class.h"
 
@@ -46,6 +50,9 @@ class LiveColoursTest final : public QObject {
   void offsets_come_when_the_hand_rests();
   void colours_follow_a_hand_and_go_on_after_a_death();
   void a_live_run_is_there_again_when_opened();
+  void update_all_computes_and_keeps();
+  void an_update_can_be_cancelled();
+  void numbers_of_another_volume_are_stale();
 };
 
 void LiveColoursTest::surfaces_are_made_without_an_engine() {
@@ -248,6 +255,79 @@ void LiveColoursTest::a_live_run_is_there_again_when_opened() {
   const Id fault = document.faults()[0].record.id;
   QTRY_COMPARE_WITH_TIMEOUT(surfaces.freshness(fault, "variance"), Freshness::kFresh, kPatience);
   QCOMPARE(surfaces.numbers(fault, "variance")->values, known);
+}
+
+void LiveColoursTest::update_all_computes_and_keeps() {
+  const SampleProject sample;
+  Workbench bench(sample.open(), {.ranks = 1, .connection = {}});
+  QCOMPARE(bench.engine.state(), EngineLink::State::kOff);
+  QSignalSpy ended(&bench.jobs, &Jobs::finished);
+  QSignalSpy runs(&bench.document, &Document::runs_changed);
+  const int job = start_update(bench);
+  QCOMPARE(start_update(bench), job);  // one at a time
+  QVERIFY(ended.wait(kPatience));
+  QVERIFY2(ended[0][1].value<Jobs::State>() == Jobs::State::kDone, qPrintable(ended[0][2].toString()));
+  QCOMPARE(runs.size(), 1);
+  for (const Fault& fault : bench.document.faults()) {
+    QCOMPARE(bench.surfaces.freshness(fault.record.id, "variance"), Freshness::kFresh);
+  }
+  const auto stored = bench.document.project().runs();
+  QCOMPARE(stored.size(), std::size_t{1});
+  QVERIFY(stored[0].live);
+  const Fault& fault = bench.document.faults()[0];
+  const auto kept = bench.document.project().fault_statistics(stored[0].id, fault.record.id);
+  const auto numbers = bench.surfaces.numbers(fault.record.id, "variance");
+  QCOMPARE(kept.statistics.at("variance").size(), numbers->values.size());
+  for (std::size_t f = 0; f < numbers->values.size(); ++f) {
+    QVERIFY(kept.statistics.at("variance")[f] == numbers->values[f] || std::isnan(numbers->values[f]));
+  }
+  // Again with nothing to do: at once, and the live run is still one.
+  QVERIFY(start_update(bench) != job);
+  QTRY_COMPARE_WITH_TIMEOUT(ended.size(), 2, kPatience);
+  QCOMPARE(ended[1][1].value<Jobs::State>(), Jobs::State::kDone);
+  QCOMPARE(bench.document.project().runs().size(), std::size_t{1});
+}
+
+void LiveColoursTest::an_update_can_be_cancelled() {
+  const SampleProject sample;
+  Workbench bench(sample.open(), {.ranks = 1, .connection = {}});
+  QSignalSpy ended(&bench.jobs, &Jobs::finished);
+  const int job = start_update(bench);
+  bench.jobs.cancel(job);
+  QVERIFY(ended.wait(kPatience));
+  QCOMPARE(ended[0][1].value<Jobs::State>(), Jobs::State::kCancelled);
+  QVERIFY(bench.document.project().runs().empty());
+  const int another = start_update(bench);
+  QVERIFY(another != job);
+  bench.jobs.cancel(another);
+  QTRY_COMPARE_WITH_TIMEOUT(ended.size(), 2, kPatience);
+}
+
+void LiveColoursTest::numbers_of_another_volume_are_stale() {
+  const SampleProject sample;
+  auto project = sample.open();
+  synthetic::Options options;
+  options.size = {48, 40, 64};
+  options.seed = 99;
+  const synthetic::FaultedSurvey made = synthetic::make_survey("faulted", options);
+  const project::VolumeRecord other =
+      tasks::add_volume(project, "another", tasks::synthetic_source(made, "another"), {});
+  Workbench bench(std::move(project), {.ranks = 1, .connection = {}});
+  const Id fault = bench.document.faults()[0].record.id;
+  QSignalSpy ended(&bench.jobs, &Jobs::finished);
+  start_update(bench);
+  QVERIFY(ended.wait(kPatience));
+  const auto before = bench.surfaces.numbers(fault, "variance")->values;
+  bench.display.set_volume(other.id);
+  QVERIFY(bench.surfaces.freshness(fault, "variance") != Freshness::kFresh);
+  start_update(bench);
+  QTRY_COMPARE_WITH_TIMEOUT(ended.size(), 2, kPatience);
+  QCOMPARE(ended[1][1].value<Jobs::State>(), Jobs::State::kDone);
+  QVERIFY(bench.surfaces.numbers(fault, "variance")->values != before);
+  const auto runs = bench.document.project().runs();  // a live one of each
+  QCOMPARE(runs.size(), std::size_t{2});
+  QCOMPARE(runs[1].volume, std::string("another"));
+  QCOMPARE(bench.document.project().fault_statistics(runs[0].id, fault).statistics.at("variance"), before);
 }
 
 static const RegisterTest<LiveColoursTest> kRegistered;

@@ -9,6 +9,7 @@
 #include <QTest>
 #include <fstream>
 
+#include "ui/dialogs/trim_history_dialog.h"
 #include "ui/model/fault_commands.h"
 #include "ui/panels/history_panel.h"
 #include "ui/panels/inspector_panel.h"
@@ -17,6 +18,7 @@
 #include "ui/test_class.h"
 #include "ui/window/actions.h"
 #include "ui/window/banner.h"
+#include "ui/window/dialogs.h"
 #include "ui/window/docks.h"
 #include "ui/window/saved_views.h"
 #include "ui/window/start_page.h"
@@ -55,6 +57,8 @@ class MainWindowTest final : public QObject {
   void hides_and_shows_all_panels();
   void opens_read_only_where_somebody_writes_and_follows();
   void names_a_missing_volume();
+  void footwall_edit_shows_in_the_window();
+  void drops_old_history_when_told_to();
   void takes_dropped_files();
   void makes_the_demo_as_a_job();
   void reads_out_the_cursor();
@@ -172,6 +176,62 @@ void MainWindowTest::names_a_missing_volume() {
   QVERIFY(window.open_project(text_of(sample.path())));
   const QString name = QString::fromStdString(window.workbench()->document.volumes().front().name);
   QVERIFY(window.banners().has(QStringLiteral("missing-") + name));
+  const std::string file = window.workbench()->document.volumes().front().file;
+  window.relink(QString(), text_of(sample.path().parent_path() / "elsewhere" / file));
+  QTRY_VERIFY2(!window.banners().has(QStringLiteral("missing-") + name),
+               qPrintable(window.banners().text(QStringLiteral("failure"))));
+  QVERIFY(window.workbench()->document.project().missing().empty());
+}
+
+void MainWindowTest::footwall_edit_shows_in_the_window() {
+  const SampleProject sample;
+  MainWindow window({});
+  window.show();
+  QVERIFY(window.open_project(text_of(sample.path())));
+  Document& document = window.workbench()->document;
+  const std::size_t faults = document.faults().size(), steps = document.history().size();
+  QProcess footwall;
+  footwall.start(QCoreApplication::applicationDirPath() + QStringLiteral("/footwall"),
+                 {QStringLiteral("edit"), text_of(sample.path())});
+  QVERIFY(footwall.waitForStarted());
+  footwall.write(
+      "{\"op\":\"add\",\"what\":\"fault\",\"name\":\"one\"}\n{\"op\":\"add\",\"what\":\"fault\",\"name\":"
+      "\"two\"}\n");
+  footwall.closeWriteChannel();
+  QTRY_VERIFY(footwall.state() == QProcess::NotRunning);
+  QVERIFY2(footwall.exitCode() == 0, footwall.readAllStandardError());
+  QCOMPARE(footwall.readAllStandardOutput().count('\n'), 2);
+  QCOMPARE(document.faults().size(), faults + 2);
+  QCOMPARE(document.history().size(), steps + 2);
+  QVERIFY(document.undo());
+  QCOMPARE(document.faults().back().record.name, std::string("one"));
+}
+
+void MainWindowTest::drops_old_history_when_told_to() {
+  const SampleProject sample;
+  MainWindow window({});
+  window.show();
+  QVERIFY(window.open_project(text_of(sample.path())));
+  Document& document = window.workbench()->document;
+  QVERIFY(!window.banners().has(QStringLiteral("history")));
+  for (int n = 0; n < 3; ++n) QVERIFY(new_fault(document) != 0);
+  const std::size_t steps = document.history().size(), faults = document.faults().size();
+  document.store().set_setting("history.keep_days", "0");
+  QTRY_COMPARE(document.project().history_size(days_ago(0)).steps, static_cast<std::int64_t>(steps));
+  warn_of_history(window);
+  QVERIFY2(window.banners().text(QStringLiteral("history")).contains(QString::number(steps)),
+           qPrintable(window.banners().text(QStringLiteral("history"))));
+  QVERIFY(window.banners().press(QStringLiteral("history"), 0));
+  auto* dialog = window.findChild<TrimHistoryDialog*>();
+  QVERIFY(dialog != nullptr);
+  QVERIFY2(dialog->message().startsWith(QStringLiteral("%1 of %1 steps").arg(steps)),
+           qPrintable(dialog->message()));
+  dialog->trim();
+  QTRY_COMPARE(document.history().size(), std::size_t{0});
+  QCOMPARE(document.faults().size(), faults);
+  QVERIFY(!document.can_undo());
+  QVERIFY(new_fault(document) != 0);
+  QVERIFY(document.can_undo());
 }
 
 void MainWindowTest::takes_dropped_files() {
@@ -198,12 +258,12 @@ void MainWindowTest::takes_dropped_files() {
       << "\nVRTX 3 " << c.x << ' ' << c.y << ' ' << c.z << "\nTRGL 1 2 3\nEND\n";
   const std::size_t faults = document.faults().size();
   drop(window, sticks);
-  QVERIFY2(document.faults().size() == faults + 1,
-           qPrintable(window.banners().text(QStringLiteral("failure"))));
-  QVERIFY(window.banners().has(QStringLiteral("import")));
+  QTRY_VERIFY2(document.faults().size() == faults + 1,
+               qPrintable(window.banners().text(QStringLiteral("failure"))));
+  QTRY_VERIFY(window.banners().has(QStringLiteral("import")));
   drop(window, surface);
-  QVERIFY2(document.faults().size() == faults + 2,
-           qPrintable(window.banners().text(QStringLiteral("failure"))));
+  QTRY_VERIFY2(document.faults().size() == faults + 2,
+               qPrintable(window.banners().text(QStringLiteral("failure"))));
   QVERIFY(document.undo());
   QVERIFY(document.undo());
   QCOMPARE(document.faults().size(), faults);

@@ -288,5 +288,48 @@ TEST_F(Edit, AFullDiskKeepsWhatWasThere) {
   EXPECT_TRUE(after.check().ok());
 }
 
+TEST_F(Edit, TrimmingDropsOldStepsAloneAndLeavesWhatTheyDid) {
+  auto project = Project::create(path_, small_survey());
+  for (const char* name : {"A", "B", "C", "D"})
+    project.edit(name, [&](Interpretation& it) { it.add_fault(name); });
+  project.undo();
+  tamper("UPDATE edit SET made = '2020-01-01T00:00:00Z' WHERE name IN ('A', 'B', 'D')");
+  EXPECT_EQ(project.history_size().steps, 4);
+  EXPECT_EQ(project.history_size("2021-01-01T00:00:00Z").steps, 2);  // D could be redone
+  const HistorySize dropped = project.trim_history("2021-01-01T00:00:00Z");
+  EXPECT_EQ(dropped.steps, 2);
+  EXPECT_GT(dropped.bytes, 0);
+  EXPECT_EQ(project.faults().size(), 3U);
+  ASSERT_EQ(project.history().size(), 2U);
+  EXPECT_EQ(project.redo(), "D");
+  EXPECT_EQ(project.undo(), "D");
+  EXPECT_EQ(project.undo(), "C");
+  EXPECT_FALSE(project.undo());
+  EXPECT_EQ(project.faults().size(), 2U);
+  EXPECT_TRUE(project.check().ok());
+  EXPECT_EQ(project.trim_history("2021-01-01T00:00:00Z").steps, 0);
+}
+
+TEST_F(Edit, TrimmingGivesTheRoomBack) {
+  auto project = Project::create(path_, small_survey());
+  std::vector<survey::WorldPoint> nodes;
+  for (int n = 0; n < 2000; ++n) nodes.push_back({1.0 * n, 2.0 * n, 3.0 * n});
+  std::int64_t fault = 0;
+  project.edit("fault", [&](Interpretation& it) { fault = it.add_fault("F"); });
+  for (int n = 0; n < 20; ++n) {
+    std::int64_t pillar = 0;
+    project.edit("add", [&](Interpretation& it) {
+      pillar = it.add_pillar(fault, survey::PillarKind::kInterpreted, nodes).id;
+    });
+    project.edit("delete", [&](Interpretation& it) { it.delete_pillar(pillar); });
+  }
+  project.close();
+  const auto before = std::filesystem::file_size(path_);
+  project = Project::open(path_, OpenMode::kWrite);
+  EXPECT_EQ(project.trim_history("9999-01-01T00:00:00Z").steps, 41);
+  project.close();
+  EXPECT_LT(std::filesystem::file_size(path_), before / 4);
+}
+
 }  // namespace
 }  // namespace footwall::project
