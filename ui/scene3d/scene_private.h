@@ -23,7 +23,9 @@ struct SceneView::Private {
   QTimer fine_timer;  // nothing has changed for a while
   bool was_settled = true;
   bool fitted = false;
-  bool isosurfaces_old = true;
+  // The words that set the camera last, and where it stood then: angles round, words must not.
+  QString camera_words;
+  std::array<double, 9> numbers_of_words{};
 
   // One asker for each plane: the reader keeps the newest request of each.
   std::map<Id, std::unique_ptr<QObject>> askers;
@@ -46,6 +48,7 @@ struct SceneView::Private {
   void sections_changed();
   void ask_for_samples();
   void ask_for_picture();
+  std::array<double, 9> camera_numbers() const;
   void stop_waiting();
   void picture_came(const std::shared_ptr<const Picture>& picture);
   void camera_moved();
