@@ -30,6 +30,12 @@ std::vector<SceneDrawing::Step> SceneDrawing::steps_of(const std::set<Id>& witho
       steps.push_back({Step::Kind::kFaces, fault, first, std::min(kWorkPerSlice, count - first)});
     }
   }
+  for (const IsosurfaceLook& look : shown_shapes()) {
+    const std::size_t count = shapes_.triangle_count(look.id);
+    for (std::size_t first = 0; first < count; first += kWorkPerSlice) {
+      steps.push_back({Step::Kind::kIsosurface, look.id, first, std::min(kWorkPerSlice, count - first)});
+    }
+  }
   for (const Display::ShownSection& shown : workbench_.display.sections()) {
     if (shown.in_scene && shown.id != without_plane)
       steps.push_back({.kind = Step::Kind::kPlane, .id = shown.id});
@@ -76,6 +82,9 @@ void SceneDrawing::draw_step(const Pass& pass, const Step& step) {
     case Step::Kind::kFaces:
       spend(meshes_.draw(gl, step.id, colouring_of(step.id), step.first, step.count));
       return;
+    case Step::Kind::kIsosurface:
+      spend(shapes_.draw(gl, pass, step.id, colour_of(step.id), step.first, step.count));
+      return;
     case Step::Kind::kPlane:
       return draw_plane(pass, step.id);
     case Step::Kind::kPicture:
@@ -121,6 +130,30 @@ void SceneDrawing::draw_plane(const Pass& pass, Id plane) {
   planes_.draw(*gl_, pass, plane, place_of(samples->section, *frame_), how);
 }
 
+std::array<float, 3> SceneDrawing::colour_of(Id isosurface) const {
+  const auto& all = workbench_.display.isosurfaces();
+  const auto found = std::ranges::find(all, isosurface, &IsosurfaceLook::id);
+  const QColor colour(found == all.end() ? QString() : found->colour);
+  if (!colour.isValid()) return {0.6F, 0.6F, 0.6F};
+  return {colour.redF(), colour.greenF(), colour.blueF()};
+}
+
+void SceneDrawing::draw_shapes_quickly(const Pass& pass) {
+  const std::vector<IsosurfaceLook> shown = shown_shapes();
+  std::size_t level = 0;
+  const auto all_of = [&](std::size_t at) {
+    std::size_t all = 0;
+    for (const IsosurfaceLook& look : shown) all += shapes_.coarse_count(look.id, at);
+    return all;
+  };
+  while (level + 1 < IsosurfaceShape::kCoarse.size() && all_of(level) > kQuickShapeTriangles) ++level;
+  std::size_t drawn = 0;
+  for (const IsosurfaceLook& look : shown) {
+    if (drawn > kQuickShapeTriangles) break;
+    drawn += spend(shapes_.draw_coarse(*gl_, pass, look.id, colour_of(look.id), level));
+  }
+}
+
 int SceneDrawing::quick_level() const {
   const std::set<Id> shown = shown_faults();
   const auto last = static_cast<int>(FaultMeshes::kCoarse.size()) - 1;
@@ -150,6 +183,7 @@ void SceneDrawing::draw_quickly(const Pass& pass) {
     drawn += spend(level < 0 ? meshes_.draw(*gl_, fault, how, 0, count)
                              : meshes_.draw_coarse(*gl_, fault, how, level));
   }
+  draw_shapes_quickly(quick);
   for (const Display::ShownSection& section : workbench_.display.sections()) {
     if (section.in_scene) draw_plane(quick, section.id);
   }
@@ -191,8 +225,9 @@ void SceneDrawing::copy(const GlTarget& from, GLuint to, GLbitfield what) {
 
 bool SceneDrawing::has_work() const {
   if (gl_ == nullptr) return false;
+  const auto has_mesh = [this](const auto& entry) { return meshes_.has(entry.first); };
   if (!meshes_to_upload_.empty() || !numbers_to_upload_.empty() || !samples_to_upload_.empty() ||
-      picture_to_upload_) {
+      !shapes_to_upload_.empty() || picture_to_upload_ || std::ranges::any_of(voxels_to_upload_, has_mesh)) {
     return true;
   }
   if (moving_) return false;

@@ -167,7 +167,7 @@ void SceneView::mouseReleaseEvent(QMouseEvent* event) {
     d.workbench.picking.release(pointer);
   } else if (was == Private::Mouse::kPressed && !d.travelled) {
     const bool marks = below.item.kind == Item::Kind::kNode || below.item.kind == Item::Kind::kPillar ||
-                       below.item.kind == Item::Kind::kFace;
+                       below.item.kind == Item::Kind::kFace || below.item.kind == Item::Kind::kIsosurface;
     const bool extend = event->modifiers().testFlag(Qt::ControlModifier);
     if (marks) {
       d.workbench.selection.select(below.item, extend);

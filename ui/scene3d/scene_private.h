@@ -3,18 +3,20 @@
 #include <QElapsedTimer>
 #include <QTimer>
 
+#include "ui/model/face_voxels.h"
 #include "ui/scene3d/scene_drawing.h"
 
 namespace footwall::ui {
 
 struct SceneView::Private {
   Private(SceneView& owner, Workbench& workbench_)
-      : view(owner), workbench(workbench_), drawing(workbench_) {}
+      : view(owner), workbench(workbench_), voxels(workbench_.document), drawing(workbench_) {}
 
   enum class Mouse { kNone, kOrbit, kPan, kPlane, kPicking, kPressed };
 
   SceneView& view;
   Workbench& workbench;
+  FaceVoxels voxels;
   SceneDrawing drawing;
   Gl gl;
   QString problem;
@@ -34,6 +36,11 @@ struct SceneView::Private {
   std::uint64_t last_picture = 0;
   int passes = 0;
 
+  // Triangles of isosurfaces that were made, for another graphics context.
+  std::map<Id, std::shared_ptr<const IsosurfaceShape>> shapes;
+  std::unique_ptr<IsosurfaceMaker> maker;  // made when first needed
+  std::set<Id> shapes_awaited;
+
   Mouse mouse = Mouse::kNone;
   QPointF pressed_at, last_at;
   bool travelled = false;
@@ -48,6 +55,12 @@ struct SceneView::Private {
   void sections_changed();
   void ask_for_samples();
   void ask_for_picture();
+  void ask_for_voxels();
+  void ask_for_shapes();
+  void shape_came(const std::shared_ptr<const IsosurfaceShape>& shape);
+  void shape_failed(Id isosurface, double value, const QString& message, const QString& hint);
+  void show_shape_share(double fraction);
+  void give_what_is_there();
   std::array<double, 9> camera_numbers() const;
   void stop_waiting();
   void picture_came(const std::shared_ptr<const Picture>& picture);

@@ -50,6 +50,8 @@ SceneView::SceneView(Workbench& workbench, QWidget* parent)
   d_->take_style();
   d_->drawing.camera.set_perspective(workbench.display.perspective());
   d_->sections_changed();
+  d_->ask_for_voxels();
+  d_->ask_for_shapes();
 }
 
 SceneView::~SceneView() {
@@ -63,6 +65,7 @@ void SceneView::set_source(SceneSource source) {
   std::set<Id> all;
   for (const Fault& fault : d_->workbench.document.faults()) all.insert(fault.record.id);
   d_->drawing.surfaces_changed(all);
+  d_->ask_for_voxels();
   d_->changed();
 }
 
@@ -133,7 +136,7 @@ void SceneView::Private::do_work() {
 bool SceneView::is_settled() const {
   const Private& d = *d_;
   if (!d.problem.isEmpty()) return true;
-  return d.drawing.is_built() && !d.rest_timer.isActive() && !d.fine_timer.isActive() &&
+  return d.drawing.is_built() && d.voxels.is_settled() && d.drawing.shape_share == 1 && !d.rest_timer.isActive() && !d.fine_timer.isActive() &&
          !d.drawing.has_work();
 }
 
@@ -156,6 +159,7 @@ void SceneView::initializeGL() {
   // The widget may get another context when it moves to another window.
   connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] { d_->forget_gl(); });
   d.ask_for_samples();
+  d.give_what_is_there();
   d.changed();
 }
 
