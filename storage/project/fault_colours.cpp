@@ -18,7 +18,8 @@ FaultColours::FaultColours(std::span<const FaultRecord> faults) {
 }
 
 std::string FaultColours::next() {
-  const auto* least = std::ranges::min_element(kColours, {}, [this](const char* colour) { return uses_.at(colour); });
+  const auto* least =
+      std::ranges::min_element(kColours, {}, [this](const char* colour) { return uses_.at(colour); });
   ++uses_.at(*least);
   return *least;
 }

@@ -16,8 +16,9 @@ namespace {
 std::shared_ptr<const FaultSurface> sheet(const survey::Geometry& survey, double shift = 0) {
   auto surface = std::make_shared<FaultSurface>();
   surface->fault = 1;
-  for (const survey::IndexPoint& p : {survey::IndexPoint{3.2, 2.1, 1.0}, survey::IndexPoint{44.7, 5.5, 3.0},
-                                      survey::IndexPoint{6.1, 33.3, 60.4}, survey::IndexPoint{42.0, 37.2, 61.9}}) {
+  for (const survey::IndexPoint& p :
+       {survey::IndexPoint{3.2, 2.1, 1.0}, survey::IndexPoint{44.7, 5.5, 3.0},
+        survey::IndexPoint{6.1, 33.3, 60.4}, survey::IndexPoint{42.0, 37.2, 61.9}}) {
     surface->vertices.push_back(survey.world_of({p.i, p.j, p.k - shift}));
   }
   surface->faces = {{1, 0, {0, 1, 2}}, {1, 1, {1, 3, 2}}};
@@ -124,9 +125,10 @@ void VoxelBricksTest::say_where_there_is_nothing() {
   QVERIFY(std::isnan(bricks.nearest({-0.6, 4, 4}).value()));
   QVERIFY(std::isnan(bricks.nearest({4, 4, 63.6}).value()));
   QVERIFY(!bricks.nearest({40, 4, 60}).has_value());  // far from the sheet
-  QVERIFY(!read_bricks(made.reader, made.record.id, made.record.origin, made.survey, *surface, 100, nullptr, [] {
-             return true;
-           }).has_value());
+  QVERIFY(
+      !read_bricks(made.reader, made.record.id, made.record.origin, made.survey, *surface, 100, nullptr, [] {
+         return true;
+       }).has_value());
   FaultSurface outside = *surface;
   for (survey::WorldPoint& p : outside.vertices) p.z += 1e6;
   QCOMPARE(made.read(outside, 100).count(), std::size_t{0});

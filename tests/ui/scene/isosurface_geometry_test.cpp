@@ -132,7 +132,8 @@ void IsosurfaceGeometryTest::slabs_give_the_surface_of_the_whole() {
   for (std::size_t v = 0; v < shape.positions.size(); v += 17) {
     const auto at = [&](double along) {
       const auto place = [&](float p, int axis) {
-        const double moved = static_cast<double>(p) + along * shape.normals[v][static_cast<std::size_t>(axis)] / 127.0;
+        const double moved =
+            static_cast<double>(p) + along * shape.normals[v][static_cast<std::size_t>(axis)] / 127.0;
         return std::clamp<std::int64_t>(std::llround(moved), 0, n[axis] - 1);
       };
       const std::array<std::int64_t, 3> p{place(shape.positions[v].x, 0), place(shape.positions[v].y, 1),

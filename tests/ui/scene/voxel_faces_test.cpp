@@ -43,12 +43,14 @@ Compared compare_with_samples(const MadeScene& scene, const QImage& image) {
       if (under.item.kind != Item::Kind::kFace) continue;
       const auto whole = [](double at) { return static_cast<std::int64_t>(std::floor(at + 0.5)); };
       const std::array<std::int64_t, 3> at{whole(under.place.i), whole(under.place.j), whole(under.place.k)};
-      if (at[0] < 0 || at[1] < 0 || at[2] < 0 || at[0] >= dims[0] || at[1] >= dims[1] || at[2] >= dims[2]) continue;
+      if (at[0] < 0 || at[1] < 0 || at[2] < 0 || at[0] >= dims[0] || at[1] >= dims[1] || at[2] >= dims[2])
+        continue;
       const QRgb wanted =
           colours.colour_of(samples[static_cast<std::size_t>((at[0] * dims[1] + at[1]) * dims[2] + at[2])]);
       const QRgb got = image.pixel(x, y);
       ++result.pixels;
-      result.alike += std::abs(qRed(got) - qRed(wanted)) <= 12 && std::abs(qGreen(got) - qGreen(wanted)) <= 12 &&
+      result.alike += std::abs(qRed(got) - qRed(wanted)) <= 12 &&
+                      std::abs(qGreen(got) - qGreen(wanted)) <= 12 &&
                       std::abs(qBlue(got) - qBlue(wanted)) <= 12;
     }
   }
@@ -93,7 +95,7 @@ void VoxelFacesTest::faces_have_the_colours_of_sections() {
   QVERIFY(scene.settle());
   const QImage smooth = scene.grabbed("voxels_smooth");
   const Compared between = compare_with_samples(scene, smooth);
-  QVERIFY(between.alike < again.alike);       // it runs from sample to sample
+  QVERIFY(between.alike < again.alike);          // it runs from sample to sample
   QVERIFY(between.alike > 0.15 * again.pixels);  // about the same samples
   // Coarse frames show them, too, and exaggeration moves them along.
   scene.bench.display.set_exaggeration(2);
