@@ -113,7 +113,7 @@ GlProgram& FaultMeshes::prepare(Gl& gl, const Mesh& mesh, const FaceColouring& h
   if (voxels) prepare_voxels(gl, program, mesh, how);
   program.set(gl, "plain", how.plain || how.voxels ? 1 : 0);
   program.set(gl, "all_hatched", how.hatched ? 1 : 0);
-  program.set(gl, "plain_colour", how.plain_colour);
+  if (how.plain || how.voxels) program.set(gl, "plain_colour", how.plain_colour);
   program.set(gl, "undefined_colour", how.undefined_colour);
   program.set(gl, "range", how.range);
   program.use(gl);

@@ -34,6 +34,10 @@ void SceneDrawing::build(Gl& gl) {
   shapes_.build(gl);
   background_.build(gl, QStringLiteral("screen.vert"), QStringLiteral("background.frag"));
   gl.glCreateVertexArrays(1, &background_layout_);
+  const auto* renderer = reinterpret_cast<const char*>(gl.glGetString(GL_RENDERER));
+  const QString name = QString::fromUtf8(renderer).toLower();
+  is_software_ = name.contains(QStringLiteral("llvmpipe")) || name.contains(QStringLiteral("softpipe")) ||
+                 name.contains(QStringLiteral("swiftshader"));
   gl_ = &gl;
   for (const Fault& fault : workbench_.document.faults()) meshes_to_upload_.insert(fault.record.id);
   content_changed();
@@ -55,7 +59,7 @@ void SceneDrawing::release() {
   for (auto* batch : {&nodes_, &loose_dots_, &hover_dots_}) batch->release(gl);
   labels_.release(gl);
   flat_sprites_.release(gl);
-  for (GlTarget* target : {&frame_target_, &front_target_, &back_target_, &fine_target_, &fine_samples_,
+  for (GlTarget* target : {&frame_target_, &quick_target_, &front_target_, &back_target_, &fine_target_, &fine_samples_,
                            &tile_target_, &tile_samples_}) {
     target->release(gl);
   }

@@ -109,6 +109,7 @@ class SceneDrawing {
   static constexpr std::size_t kQuickShapeTriangles = 12'000;  // of all isosurfaces, while the camera moves
   static constexpr std::size_t kLooseTriangles = 20'000;  // of one fault that is being edited
   static constexpr int kFineSamples = 4;
+  static constexpr int kQuickPixels = 250'000;  // of a frame while the camera moves, without a graphics card
   static constexpr int kTile = 1024;
 
   Pass pass_now() const;
@@ -130,7 +131,9 @@ class SceneDrawing {
   void draw_background(const Pass& pass);
   void draw_plane(const Pass& pass, Id plane);
   int quick_level() const;  // of coarse faces; -1: all
-  void draw_quickly(const Pass& pass);
+  void draw_quickly(const Pass& quick);
+  void paint_small(GLuint framebuffer, const Pass& pass, int side);
+  int pixels_at_once(const Pass& pass) const;
   std::array<float, 3> colour_of(Id isosurface) const;
   void draw_shapes_quickly(const Pass& pass);
   void draw_loose(const Pass& pass);
@@ -183,9 +186,10 @@ class SceneDrawing {
   std::optional<ColourBar> bar_;
   bool range_old_ = true;  // range_ and bar_ are
 
-  GlTarget frame_target_, front_target_, back_target_, fine_target_, fine_samples_, tile_target_,
+  GlTarget frame_target_, quick_target_, front_target_, back_target_, fine_target_, fine_samples_, tile_target_,
       tile_samples_;
   Layer front_, back_, fine_;
+  bool is_software_ = false;  // the processor draws
   bool front_valid_ = false, front_old_ = true, fine_valid_ = false, fine_wanted_ = false, moving_ = false;
   Id loose_plane_ = 0, hot_plane_ = 0;
   std::size_t work_ = 0;

@@ -166,9 +166,16 @@ int SceneDrawing::quick_level() const {
   return last;
 }
 
-void SceneDrawing::draw_quickly(const Pass& pass) {
-  Pass quick = pass;
-  quick.quick = true;
+// Pixels of the picture along each side of one that is drawn while the camera moves.
+int SceneDrawing::pixels_at_once(const Pass& pass) const {
+  if (!is_software_) return 1;
+  int side = 1;
+  while (pass.width / side * (pass.height / side) > kQuickPixels) ++side;
+  return side;
+}
+
+// All but letters with few triangles, into the bound target.
+void SceneDrawing::draw_quickly(const Pass& quick) {
   ++counters.coarse_frames;
   draw_background(quick);
   const std::set<Id> shown = shown_faults();
@@ -189,7 +196,27 @@ void SceneDrawing::draw_quickly(const Pass& pass) {
   }
   for (const auto kind : {Step::Kind::kPicture, Step::Kind::kMarks}) draw_step(quick, {.kind = kind});
   marks_.draw(*gl_, quick, loose_lines_, true);
-  marks_.draw(*gl_, quick, labels_);
+}
+
+// A frame of a moving camera with fewer pixels, spread over the framebuffer; letters are as sharp as ever, and over all.
+void SceneDrawing::paint_small(GLuint framebuffer, const Pass& pass, int side) {
+  Pass quick = pass;
+  quick.quick = true;
+  quick.width = quick.whole_width = (pass.width + side - 1) / side;
+  quick.height = quick.whole_height = (pass.height + side - 1) / side;
+  quick.pixel = pass.pixel / side;
+  quick_target_.resize(*gl_, quick.width, quick.height, 1);
+  begin(quick_target_.name(), quick);
+  draw_quickly(quick);
+  marks_.draw(*gl_, quick, over_lines_, false, Marks::kLift);
+  draw_hover(quick);
+  gl_->glBlitNamedFramebuffer(quick_target_.name(), framebuffer, 0, 0, quick.width, quick.height, 0, 0, pass.width,
+                              pass.height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  begin(framebuffer, pass);
+  gl_->glDisable(GL_DEPTH_TEST);
+  marks_.draw(*gl_, pass, labels_);
+  if (std::exchange(flat_old_, false)) refresh_flat(view_, texts_, pixel_, true);
+  marks_.draw(*gl_, pass, flat_sprites_);
 }
 
 void SceneDrawing::draw_loose(const Pass& pass) {
@@ -302,27 +329,30 @@ void SceneDrawing::paint(GLuint framebuffer) {
   }
   refresh_range();
   const Pass pass = pass_now();
-  frame_target_.resize(*gl_, pass.width, pass.height, 1);
-  if (fine_valid_ && front_valid_) {
-    copy(fine_target_, frame_target_.name(), GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    begin(frame_target_.name(), pass);
-    draw_over(pass);
-  } else if (front_valid_) {
-    copy(front_target_, frame_target_.name(), GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    begin(frame_target_.name(), pass);
-    draw_loose(pass);
-    draw_over(pass);
-  } else {
-    refresh_static_marks();
-    if (std::exchange(camera_marks_old_, false)) refresh_camera_marks(pass, view_, texts_);
-    refresh_loose_marks();
-    begin(frame_target_.name(), pass);
-    draw_quickly(pass);
-  }
   // Frames of planes and what is hovered change without the layer.
   std::vector<Line> over;
   for (const Display::ShownSection& shown : workbench_.display.sections()) add_frame_lines(over, shown.id);
   over_lines_.set(*gl_, over);
+  if (!front_valid_) {
+    refresh_static_marks();
+    if (std::exchange(camera_marks_old_, false)) refresh_camera_marks(pass, view_, texts_);
+    refresh_loose_marks();
+    if (const int side = pixels_at_once(pass); side > 1) return paint_small(framebuffer, pass, side);
+  }
+  frame_target_.resize(*gl_, pass.width, pass.height, 1);
+  if (front_valid_) {
+    const GlTarget& from = fine_valid_ ? fine_target_ : front_target_;
+    copy(from, frame_target_.name(), GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    begin(frame_target_.name(), pass);
+    if (!fine_valid_) draw_loose(pass);
+    draw_over(pass);
+  } else {
+    Pass quick = pass;
+    quick.quick = true;
+    begin(frame_target_.name(), quick);
+    draw_quickly(quick);
+    marks_.draw(*gl_, quick, labels_);
+  }
   marks_.draw(*gl_, pass, over_lines_, false, Marks::kLift);
   draw_hover(pass);
   if (std::exchange(flat_old_, false)) refresh_flat(view_, texts_, pixel_, true);
