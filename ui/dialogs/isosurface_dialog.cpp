@@ -44,7 +44,7 @@ IsosurfaceDialog::IsosurfaceDialog(Workbench& workbench, Id isosurface, QWidget*
   shown_as_ = new QComboBox(this);
   shown_as_->setObjectName(QStringLiteral("shown as"));
   shown_as_->addItem(tr("Picture by the engine"));
-  shown_as_->addItem(tr("Triangles"));
+  shown_as_->addItem(tr("Mesh of triangles"));
   shown_as_->setToolTip(
       tr("A picture costs the same however large the surface is, and is drawn anew for each camera; triangles "
          "are made here, turn with the scene and can be picked"));

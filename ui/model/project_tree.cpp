@@ -13,7 +13,7 @@ namespace footwall::ui {
 namespace {
 
 QString dims_text(const std::array<std::int64_t, 3>& dims) {
-  if (dims[0] == dims[1] && dims[1] == dims[2]) return QStringLiteral("%1³").arg(dims[0]);
+  if (dims[0] == dims[1] && dims[1] == dims[2]) return QString::number(dims[0]) + QStringLiteral("³");  // "%1³" would be the 13th place
   return QStringLiteral("%1 × %2 × %3").arg(dims[0]).arg(dims[1]).arg(dims[2]);
 }
 
@@ -88,7 +88,7 @@ std::vector<ProjectTree::Row> ProjectTree::rows_now(Group group) const {
           rows.push_back(
               {.item = {.kind = Item::Kind::kIsosurface, .id = look.id},
                .name = QStringLiteral("%1 = %2").arg(volume_name(look.volume)).arg(look.value, 0, 'g', 4),
-               .detail = look.as_picture ? tr("picture") : tr("triangles"),
+               .detail = look.as_picture ? QString() : tr("mesh"),
                .colour = QColor(look.colour),
                .checked = look.visible});
         }
