@@ -8,6 +8,7 @@
 #include "storage/base/error.h"
 #include "storage/formats/names.h"
 #include "storage/formats/stick_formats.h"
+#include "storage/project/fault_colours.h"
 
 namespace footwall::tasks {
 namespace {
@@ -88,9 +89,11 @@ SticksImported import_sticks(project::Project& project, const std::filesystem::p
                              const JobContext& job) {
   const Read from_file = read(project, file, format, options);
   job.report(0.5, "read");
+  const std::vector<project::FaultRecord> known = project.faults();
   project.edit(formats::clean_name("Import " + file.filename().string()),
                [&](project::Interpretation& picks) {
                  std::map<std::string, std::int64_t> ids;
+                 project::FaultColours colours(known);
                  const std::size_t total = from_file.sticks.size();
                  std::size_t stored = 0;
                  for (const formats::Stick& stick : from_file.sticks) {
@@ -100,7 +103,10 @@ SticksImported import_sticks(project::Project& project, const std::filesystem::p
                    }
                    job.check();
                    const auto [id, is_new] = ids.try_emplace(stick.fault, 0);
-                   if (is_new) id->second = picks.add_fault(from_file.names.at(stick.fault));
+                   if (is_new) {
+                     id->second = picks.add_fault(from_file.names.at(stick.fault));
+                     picks.set_fault_property(id->second, "colour", colours.next());
+                   }
                    picks.add_pillar(id->second, survey::PillarKind::kInterpreted, stick.points);
                  }
                });

@@ -9,6 +9,7 @@
 #include "storage/base/error.h"
 #include "storage/formats/gocad_tsurf.h"
 #include "storage/formats/z_unit.h"
+#include "storage/project/fault_colours.h"
 
 namespace footwall::tasks {
 namespace {
@@ -140,11 +141,13 @@ SurfacesImported import_surface(project::Project& project, const std::filesystem
   job.check();
 
   // 2. One edit for all of them.
+  project::FaultColours colours(project.faults());
   project.edit(
       "Import " + usable_name(file.filename().string(), "surfaces"), [&](project::Interpretation& picks) {
         for (std::size_t n = 0; n < read.objects.size(); ++n) {
           const survey::Surface& surface = read.objects[n].surface;
           const std::int64_t fault = picks.add_fault(surface.name);
+          picks.set_fault_property(fault, "colour", colours.next());
           picks.add_surface(surface, kKind, fault, units[n]);
           imported.faults.push_back({surface.name, static_cast<std::int64_t>(surface.vertices.size()),
                                      static_cast<std::int64_t>(surface.triangles.size())});

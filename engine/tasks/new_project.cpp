@@ -2,6 +2,7 @@
 
 #include "engine/synthetic/registry.h"
 #include "storage/base/error.h"
+#include "storage/project/fault_colours.h"
 
 namespace footwall::tasks {
 namespace {
@@ -40,9 +41,11 @@ project::VolumeRecord made(const fs::path& path, Fill&& fill) {
 }
 
 void add_faults(project::Project& project, const synthetic::FaultedSurvey& survey) {
+  project::FaultColours colours(project.faults());
   for (const synthetic::Fault& fault : survey.faults()) {
     project.edit("Pick fault " + fault.name, [&](project::Interpretation& picks) {
       const std::int64_t id = picks.add_fault(fault.name);
+      picks.set_fault_property(id, "colour", colours.next());
       for (const survey::Pillar& pillar : fault.pillars) picks.add_pillar(id, pillar);
     });
     project.add_truth(fault.truth, "fault");

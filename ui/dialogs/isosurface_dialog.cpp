@@ -41,6 +41,13 @@ IsosurfaceDialog::IsosurfaceDialog(Workbench& workbench, Id isosurface, QWidget*
   colour_->setFixedWidth(56);
   colour_->setToolTip(tr("Colour"));
   colour_->setAccessibleName(tr("Colour"));
+  shown_as_ = new QComboBox(this);
+  shown_as_->setObjectName(QStringLiteral("shown as"));
+  shown_as_->addItem(tr("Picture by the engine"));
+  shown_as_->addItem(tr("Mesh of triangles"));
+  shown_as_->setToolTip(
+      tr("A picture costs the same however large the surface is, and is drawn anew for each camera; triangles "
+         "are made here, turn with the scene and can be picked"));
   message_ = new QLabel(this);
   message_->setWordWrap(true);
   message_->setForegroundRole(QPalette::LinkVisited);
@@ -61,6 +68,7 @@ IsosurfaceDialog::IsosurfaceDialog(Workbench& workbench, Id isosurface, QWidget*
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
   form->addRow(tr("Volume"), volume_);
   form->addRow(tr("Value"), value_row);
+  form->addRow(tr("Shown as"), shown_as_);
   auto* buttons = new QHBoxLayout;
   buttons->setSpacing(8);
   buttons->addWidget(message_, 1);
@@ -75,6 +83,7 @@ IsosurfaceDialog::IsosurfaceDialog(Workbench& workbench, Id isosurface, QWidget*
   connect(volume_, &QComboBox::currentIndexChanged, this, &IsosurfaceDialog::read_histogram);
   connect(histogram_, &ValueHistogram::value_moved, this, &IsosurfaceDialog::set_value);
   connect(value_, &QDoubleSpinBox::valueChanged, this, &IsosurfaceDialog::set_value);
+  connect(shown_as_, &QComboBox::activated, this, [this](int choice) { set_as_picture(choice == 0); });
   connect(colour_, &QPushButton::clicked, this, &IsosurfaceDialog::choose_colour);
   connect(ok_, &QPushButton::clicked, this, &QDialog::accept);
   connect(cancel, &QPushButton::clicked, this, &IsosurfaceDialog::reject);
@@ -173,8 +182,18 @@ void IsosurfaceDialog::choose_colour() {
   show_colour();
 }
 
+void IsosurfaceDialog::set_as_picture(bool as_picture) {
+  const IsosurfaceLook* shown = look();
+  if (shown == nullptr) return;
+  IsosurfaceLook changed = *shown;
+  changed.as_picture = as_picture;
+  workbench_.display.change_isosurface(changed);
+}
+
 void IsosurfaceDialog::show_colour() {
   const IsosurfaceLook* shown = look();
+  shown_as_->setEnabled(shown != nullptr);
+  if (shown != nullptr) shown_as_->setCurrentIndex(shown->as_picture ? 0 : 1);
   colour_->setEnabled(shown != nullptr);
   QPixmap swatch(32, 12);
   swatch.fill(shown != nullptr ? QColor(shown->colour) : palette().color(QPalette::Mid));

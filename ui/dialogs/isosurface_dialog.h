@@ -37,6 +37,7 @@ class IsosurfaceDialog final : public QDialog {
   void histogram_failed(int request, const QString& message);
   void set_value(double value);
   void choose_colour();
+  void set_as_picture(bool as_picture);
   void show_colour();
 
   Workbench& workbench_;
@@ -44,7 +45,7 @@ class IsosurfaceDialog final : public QDialog {
   std::optional<IsosurfaceLook> before_;
   int request_ = 0;
   std::vector<std::thread> threads_;
-  QComboBox* volume_;
+  QComboBox *volume_, *shown_as_;
   ValueHistogram* histogram_;
   QDoubleSpinBox* value_;
   QPushButton *colour_, *ok_;

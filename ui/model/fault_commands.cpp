@@ -7,14 +7,12 @@
 #include <numbers>
 #include <vector>
 
+#include "storage/project/fault_colours.h"
+
 namespace footwall::ui {
 namespace {
 
 using survey::WorldPoint;
-
-// Okabe and Ito's set and three more, in an order in which neighbours differ in lightness as well as hue.
-constexpr std::array<const char*, 10> kColours{"#e06c6c", "#4aa3df", "#e0b15c", "#2e8b57", "#c9a3e8",
-                                               "#8c5a2b", "#56d0c0", "#d55e00", "#b0c4de", "#cc79a7"};
 
 constexpr double kMetreAMillisecond = 2000;  // m/s
 constexpr double kMostGaps = 9999;           // of a resampled pillar
@@ -137,11 +135,9 @@ QString next_fault_name(const Document& document) {
 }
 
 QString next_fault_colour(const Document& document) {
-  std::map<std::string, int> uses;
-  for (const Fault& fault : document.faults()) ++uses[fault.record.colour];
-  const auto least = std::ranges::min_element(
-      kColours, {}, [&](const char* colour) { return uses.contains(colour) ? uses[colour] : 0; });
-  return QString::fromLatin1(*least);
+  std::vector<project::FaultRecord> records;
+  for (const Fault& fault : document.faults()) records.push_back(fault.record);
+  return QString::fromStdString(project::FaultColours(records).next());
 }
 
 Id new_fault(Document& document) {

@@ -88,7 +88,7 @@ std::vector<ProjectTree::Row> ProjectTree::rows_now(Group group) const {
           rows.push_back(
               {.item = {.kind = Item::Kind::kIsosurface, .id = look.id},
                .name = QStringLiteral("%1 = %2").arg(volume_name(look.volume)).arg(look.value, 0, 'g', 4),
-               .detail = {},
+               .detail = look.as_picture ? QString() : tr("mesh"),
                .colour = QColor(look.colour),
                .checked = look.visible});
         }

@@ -29,6 +29,7 @@ ProjectPanel::ProjectPanel(Workbench& workbench, FindAction action, QWidget* par
   connect(this, &QTreeView::activated, this, [this](const QModelIndex& index) {
     const Item item = tree_->item_of(index);
     if (item.kind == Item::Kind::kView) Q_EMIT view_asked(item.name);
+    if (item.kind == Item::Kind::kIsosurface) Q_EMIT isosurface_asked(item.id);
   });
   connect(tree_, &ProjectTree::rowsInserted, this, [this](const QModelIndex& top) {
     expand(top);

@@ -28,6 +28,8 @@ class ProjectPanel final : public QTreeView {
  Q_SIGNALS:
   // A saved view was activated: by a double-click, or Enter.
   void view_asked(const QString& name);
+  // An isosurface, likewise.
+  void isosurface_asked(footwall::ui::Id isosurface);
 
  protected:
   void contextMenuEvent(QContextMenuEvent* event) override;

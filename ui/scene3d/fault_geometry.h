@@ -8,18 +8,13 @@
 #include <vector>
 
 #include "ui/model/surfaces.h"
+#include "ui/scene3d/coarse_faces.h"
 #include "ui/scene3d/ray_tree.h"
 
 namespace footwall::ui {
 
 // World to the scene frame at exaggeration 1.
 using ToScene = std::function<render::Vec3(const survey::WorldPoint&)>;
-
-// Some of a mesh's faces, after near vertices were made one.
-struct CoarseFaces {
-  std::vector<std::uint32_t> corners;  // three vertices of the mesh per face
-  std::vector<std::uint32_t> faces;    // the mesh's face whose colour each takes
-};
 
 class FaultGeometry {
  public:

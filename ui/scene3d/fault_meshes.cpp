@@ -1,6 +1,7 @@
 #include "ui/scene3d/fault_meshes.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace footwall::ui {
@@ -8,6 +9,9 @@ namespace footwall::ui {
 void FaultMeshes::build(Gl& gl) {
   smooth_.build(gl, "faces.vert", "faces.frag", "#version 450 core\n");
   edged_.build(gl, "faces_edges.vert", "faces.frag", "#version 450 core\n#define EDGES\n");
+  voxels_.build(gl, "faces.vert", "faces.frag", "#version 450 core\n#define VOXELS\n");
+  edged_voxels_.build(gl, "faces_edges.vert", "faces.frag",
+                      "#version 450 core\n#define VOXELS\n#define EDGES\n");
   gl.glCreateVertexArrays(1, &layout_);
   gl.glEnableVertexArrayAttrib(layout_, 0);
   gl.glVertexArrayAttribFormat(layout_, 0, 3, GL_FLOAT, GL_FALSE, 0);
@@ -17,14 +21,14 @@ void FaultMeshes::build(Gl& gl) {
 void FaultMeshes::release(Gl& gl) {
   for (auto& [fault, mesh] : meshes_) drop(gl, mesh);
   meshes_.clear();
-  smooth_.release(gl);
-  edged_.release(gl);
+  for (GlProgram* program : {&smooth_, &edged_, &voxels_, &edged_voxels_}) program->release(gl);
   if (layout_ != 0) gl.glDeleteVertexArrays(1, &layout_);
   layout_ = 0;
 }
 
 void FaultMeshes::drop(Gl& gl, Mesh& mesh) {
-  for (GlBuffer* buffer : {&mesh.positions, &mesh.corners, &mesh.faces}) buffer->release(gl);
+  for (GlBuffer* buffer : {&mesh.positions, &mesh.corners, &mesh.faces, &mesh.table, &mesh.samples})
+    buffer->release(gl);
   for (Coarse& coarse : mesh.coarse) {
     coarse.corners.release(gl);
     coarse.faces.release(gl);
@@ -56,6 +60,21 @@ void FaultMeshes::put_numbers(Gl& gl, Id fault, std::span<const double> values,
   found->second.faces.set(gl, faces);
 }
 
+void FaultMeshes::put_voxels(Gl& gl, Id fault, std::shared_ptr<const VoxelBricks> bricks) {
+  const auto found = meshes_.find(fault);
+  if (found == meshes_.end()) return;
+  Mesh& mesh = found->second;
+  if (mesh.bricks == bricks) return;
+  mesh.bricks = std::move(bricks);
+  if (mesh.bricks == nullptr) {
+    mesh.table.release(gl);
+    mesh.samples.release(gl);
+    return;
+  }
+  mesh.table.set(gl, mesh.bricks->table);
+  mesh.samples.set(gl, mesh.bricks->samples);
+}
+
 void FaultMeshes::remove(Gl& gl, Id fault) {
   const auto found = meshes_.find(fault);
   if (found == meshes_.end()) return;
@@ -75,7 +94,8 @@ std::size_t FaultMeshes::face_count(Id fault) const {
 
 void FaultMeshes::look_through(Gl& gl, const Pass& pass) {
   const render::Camera& camera = pass.camera;
-  for (GlProgram* program : {&smooth_, &edged_}) {
+  for (GlProgram* program : {&smooth_, &edged_, &voxels_, &edged_voxels_}) {
+    program->set(gl, "quick", pass.quick ? 1 : 0);
     program->set(gl, "view_projection", camera.view_projection);
     program->set(gl, "heights", static_cast<float>(pass.heights));
     program->set(gl, "colours", 0);
@@ -88,10 +108,12 @@ void FaultMeshes::look_through(Gl& gl, const Pass& pass) {
 }
 
 GlProgram& FaultMeshes::prepare(Gl& gl, const Mesh& mesh, const FaceColouring& how, bool edges) {
-  GlProgram& program = edges ? edged_ : smooth_;
-  program.set(gl, "plain", how.plain ? 1 : 0);
+  const bool voxels = how.voxels && mesh.bricks != nullptr && mesh.bricks->count() > 0;
+  GlProgram& program = voxels ? (edges ? edged_voxels_ : voxels_) : edges ? edged_ : smooth_;
+  if (voxels) prepare_voxels(gl, program, mesh, how);
+  program.set(gl, "plain", how.plain || how.voxels ? 1 : 0);
   program.set(gl, "all_hatched", how.hatched ? 1 : 0);
-  program.set(gl, "plain_colour", how.plain_colour);
+  if (how.plain || how.voxels) program.set(gl, "plain_colour", how.plain_colour);
   program.set(gl, "undefined_colour", how.undefined_colour);
   program.set(gl, "range", how.range);
   program.use(gl);
@@ -99,6 +121,31 @@ GlProgram& FaultMeshes::prepare(Gl& gl, const Mesh& mesh, const FaceColouring& h
   gl.glBindVertexArray(layout_);
   gl.glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, mesh.faces.name());
   return program;
+}
+
+void FaultMeshes::prepare_voxels(Gl& gl, GlProgram& program, const Mesh& mesh, const FaceColouring& how) {
+  const VoxelBricks& bricks = *mesh.bricks;
+  const auto step = static_cast<double>(bricks.step);
+  render::Matrix4 to_samples = how.to_voxels;
+  std::array<float, 3> size{}, lowest{}, highest{}, counts{};
+  for (std::size_t n = 0; n < 3; ++n) {
+    to_samples[4 * n + 3] -= static_cast<double>(bricks.origin[n]);
+    for (std::size_t column = 0; column < 4; ++column) to_samples[4 * n + column] /= step;
+    size[n] = static_cast<float>(bricks.sampled()[n]);
+    lowest[n] = static_cast<float>(-0.5 / step);
+    highest[n] = static_cast<float>((static_cast<double>(bricks.size[n]) - 0.5) / step);
+    counts[n] = static_cast<float>(bricks.bricks()[n]);
+  }
+  program.set(gl, "to_samples", to_samples);
+  program.set(gl, "size", size);
+  program.set(gl, "lowest", lowest);
+  program.set(gl, "highest", highest);
+  program.set(gl, "bricks", counts);
+  program.set(gl, "table_bits", std::countr_zero(bricks.table.size()));
+  program.set(gl, "longest", bricks.longest);
+  program.set(gl, "smoothed", how.interpolate ? static_cast<int>(*how.interpolate) : -1);
+  gl.glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, mesh.table.name());
+  gl.glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, mesh.samples.name());
 }
 
 std::size_t FaultMeshes::draw(Gl& gl, Id fault, const FaceColouring& how, std::size_t first,

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 
+#include "ui/model/voxel_bricks.h"
 #include "ui/scene3d/fault_geometry.h"
 #include "ui/scene3d/gl.h"
 #include "ui/scene3d/pass.h"
@@ -19,6 +20,10 @@ struct FaceColouring {
   std::array<float, 2> range{0, 1};
   GLuint colours = 0;  // texture, 256 x 1
   bool edges = false;
+  // By the samples that they cut, where put_voxels() has brought them; else plain.
+  bool voxels = false;
+  render::Matrix4 to_voxels{};      // the scene, exaggerated, to the survey's index space
+  std::optional<bool> interpolate;  // as SampleLook
 };
 
 class FaultMeshes {
@@ -31,6 +36,8 @@ class FaultMeshes {
   // undefined.
   void put_numbers(Gl& gl, Id fault, std::span<const double> values, std::span<const std::uint8_t> stale,
                    std::span<const std::uint8_t> hatched);
+  // The samples around the fault; null: none. Kept through put().
+  void put_voxels(Gl& gl, Id fault, std::shared_ptr<const VoxelBricks> bricks);
   void remove(Gl& gl, Id fault);
   bool has(Id fault) const { return meshes_.contains(fault); }
   const FaultGeometry* geometry(Id fault) const;
@@ -57,13 +64,16 @@ class FaultMeshes {
   struct Mesh {
     std::shared_ptr<const FaultGeometry> geometry;
     GlBuffer positions, corners, faces;
+    std::shared_ptr<const VoxelBricks> bricks;
+    GlBuffer table, samples;
     std::array<Coarse, kCoarse.size()> coarse;
   };
   void make(Gl& gl, Mesh& mesh, std::size_t level);
   GlProgram& prepare(Gl& gl, const Mesh& mesh, const FaceColouring& how, bool edges);
+  void prepare_voxels(Gl& gl, GlProgram& program, const Mesh& mesh, const FaceColouring& how);
   void drop(Gl& gl, Mesh& mesh);
 
-  GlProgram smooth_, edged_;
+  GlProgram smooth_, edged_, voxels_, edged_voxels_;
   GLuint layout_ = 0;
   std::map<Id, Mesh> meshes_;
 };

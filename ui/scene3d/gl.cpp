@@ -1,6 +1,7 @@
 #include "ui/scene3d/gl.h"
 
 #include <QFile>
+#include <algorithm>
 
 #include "storage/base/error.h"
 
@@ -68,26 +69,38 @@ void GlProgram::release(Gl& gl) {
   *this = {};
 }
 
-GLint GlProgram::place_of(Gl& gl, const char* uniform) {
-  const auto [at, is_new] = places_.try_emplace(uniform, -1);
-  if (is_new) at->second = gl.glGetUniformLocation(name_, uniform);
-  return at->second;
+GLint GlProgram::place_for(Gl& gl, const char* uniform, std::span<const std::byte> value) {
+  auto found = uniforms_.find(std::string_view(uniform));
+  if (found == uniforms_.end()) {
+    found = uniforms_.try_emplace(uniform).first;
+    found->second.place = gl.glGetUniformLocation(name_, uniform);
+  }
+  Uniform& known = found->second;
+  if (known.size == value.size() && std::ranges::equal(value, std::span(known.value).first(value.size()))) return -1;
+  known.size = value.size();
+  std::ranges::copy(value, known.value.begin());
+  return known.place;
 }
 
 void GlProgram::set(Gl& gl, const char* uniform, int value) {
-  gl.glProgramUniform1i(name_, place_of(gl, uniform), value);
+  const GLint place = place_for(gl, uniform, std::as_bytes(std::span(&value, 1)));
+  if (place >= 0) gl.glProgramUniform1i(name_, place, value);
 }
 void GlProgram::set(Gl& gl, const char* uniform, float value) {
-  gl.glProgramUniform1f(name_, place_of(gl, uniform), value);
+  const GLint place = place_for(gl, uniform, std::as_bytes(std::span(&value, 1)));
+  if (place >= 0) gl.glProgramUniform1f(name_, place, value);
 }
 void GlProgram::set(Gl& gl, const char* uniform, std::array<float, 2> value) {
-  gl.glProgramUniform2fv(name_, place_of(gl, uniform), 1, value.data());
+  const GLint place = place_for(gl, uniform, std::as_bytes(std::span(value)));
+  if (place >= 0) gl.glProgramUniform2fv(name_, place, 1, value.data());
 }
 void GlProgram::set(Gl& gl, const char* uniform, std::array<float, 3> value) {
-  gl.glProgramUniform3fv(name_, place_of(gl, uniform), 1, value.data());
+  const GLint place = place_for(gl, uniform, std::as_bytes(std::span(value)));
+  if (place >= 0) gl.glProgramUniform3fv(name_, place, 1, value.data());
 }
 void GlProgram::set(Gl& gl, const char* uniform, std::array<float, 4> value) {
-  gl.glProgramUniform4fv(name_, place_of(gl, uniform), 1, value.data());
+  const GLint place = place_for(gl, uniform, std::as_bytes(std::span(value)));
+  if (place >= 0) gl.glProgramUniform4fv(name_, place, 1, value.data());
 }
 void GlProgram::set(Gl& gl, const char* uniform, const render::Vec3& value) {
   set(gl, uniform,
@@ -96,7 +109,8 @@ void GlProgram::set(Gl& gl, const char* uniform, const render::Vec3& value) {
 void GlProgram::set(Gl& gl, const char* uniform, const render::Matrix4& value) {
   std::array<float, 16> floats{};
   for (std::size_t n = 0; n < 16; ++n) floats[n] = static_cast<float>(value[n]);
-  gl.glProgramUniformMatrix4fv(name_, place_of(gl, uniform), 1, GL_TRUE, floats.data());
+  const GLint place = place_for(gl, uniform, std::as_bytes(std::span(floats)));
+  if (place >= 0) gl.glProgramUniformMatrix4fv(name_, place, 1, GL_TRUE, floats.data());
 }
 
 void GlTarget::resize(Gl& gl, int width, int height, int samples) {

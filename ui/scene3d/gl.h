@@ -47,9 +47,16 @@ class GlProgram {
   void set(Gl& gl, const char* uniform, const render::Vec3& value);
 
  private:
-  GLint place_of(Gl& gl, const char* uniform);
+  struct Uniform {
+    GLint place = -1;
+    std::size_t size = 0;  // of the value last set, in bytes
+    std::array<std::byte, sizeof(float) * 16> value{};
+  };
+  // Where the value goes; negative where it is there already, or the program has no such uniform. Setting one anew makes
+  // the driver prepare its constants again, and most are the same from draw to draw.
+  GLint place_for(Gl& gl, const char* uniform, std::span<const std::byte> value);
   GLuint name_ = 0;
-  std::map<std::string, GLint> places_;
+  std::map<std::string, Uniform, std::less<>> uniforms_;
 };
 
 // RGBA8 and 32-bit depth of the same size, with one or several samples per pixel.

@@ -31,8 +31,13 @@ void SceneDrawing::build(Gl& gl) {
   planes_.build(gl);
   marks_.build(gl);
   picture_.build(gl);
+  shapes_.build(gl);
   background_.build(gl, QStringLiteral("screen.vert"), QStringLiteral("background.frag"));
   gl.glCreateVertexArrays(1, &background_layout_);
+  const auto* renderer = reinterpret_cast<const char*>(gl.glGetString(GL_RENDERER));
+  const QString name = QString::fromUtf8(renderer).toLower();
+  is_software_ = name.contains(QStringLiteral("llvmpipe")) || name.contains(QStringLiteral("softpipe")) ||
+                 name.contains(QStringLiteral("swiftshader"));
   gl_ = &gl;
   for (const Fault& fault : workbench_.document.faults()) meshes_to_upload_.insert(fault.record.id);
   content_changed();
@@ -45,6 +50,7 @@ void SceneDrawing::release() {
   planes_.release(gl);
   marks_.release(gl);
   picture_.release(gl);
+  shapes_.release(gl);
   background_.release(gl);
   gl.glDeleteVertexArrays(1, &background_layout_);
   for (auto& [name, texture] : colour_tables_) gl.glDeleteTextures(1, &texture);
@@ -53,7 +59,7 @@ void SceneDrawing::release() {
   for (auto* batch : {&nodes_, &loose_dots_, &hover_dots_}) batch->release(gl);
   labels_.release(gl);
   flat_sprites_.release(gl);
-  for (GlTarget* target : {&frame_target_, &front_target_, &back_target_, &fine_target_, &fine_samples_,
+  for (GlTarget* target : {&frame_target_, &quick_target_, &front_target_, &back_target_, &fine_target_, &fine_samples_,
                            &tile_target_, &tile_samples_}) {
     target->release(gl);
   }
@@ -173,6 +179,16 @@ void SceneDrawing::put_samples(Id plane, std::shared_ptr<const SectionSamples> s
   plane == loose_plane_ ? loose_changed() : content_changed();
 }
 
+void SceneDrawing::put_voxels(Id fault, std::shared_ptr<const VoxelBricks> bricks) {
+  if (bricks == nullptr && !meshes_.has(fault)) {
+    voxels_to_upload_.erase(fault);
+    return;
+  }
+  voxels_to_upload_[fault] = std::move(bricks);
+  range_old_ = true;
+  loose_faults().contains(fault) ? loose_changed() : content_changed();
+}
+
 void SceneDrawing::put_picture(std::shared_ptr<const Picture> picture,
                                const render::Matrix4& view_projection) {
   picture_to_upload_.emplace(std::move(picture), view_projection);
@@ -183,6 +199,30 @@ void SceneDrawing::clear_picture() {
   picture_to_upload_.reset();
   if (!picture_.is_shown()) return;
   picture_.clear();
+  content_changed();
+}
+
+void SceneDrawing::put_shape(std::shared_ptr<const IsosurfaceShape> shape) {
+  const Id id = shape->isosurface;
+  shapes_to_upload_[id] = std::move(shape);
+  content_changed();
+}
+
+void SceneDrawing::drop_shape(Id isosurface) {
+  shapes_to_upload_[isosurface] = nullptr;
+  content_changed();
+}
+
+void SceneDrawing::isosurfaces_changed() {
+  // Triangles that are not wanted any more leave the card.
+  const auto& all = workbench_.display.isosurfaces();
+  const auto is_wanted = [&](Id id) {
+    return std::ranges::any_of(all, [id](const IsosurfaceLook& look) { return look.id == id && !look.as_picture; });
+  };
+  std::erase_if(shapes_to_upload_, [&](const auto& entry) { return !is_wanted(entry.first); });
+  for (const Id id : shapes_.all()) {
+    if (!is_wanted(id)) shapes_to_upload_[id] = nullptr;
+  }
   content_changed();
 }
 
@@ -204,6 +244,14 @@ std::set<Id> SceneDrawing::shown_faults() const {
   for (const Fault& fault : workbench_.document.faults()) {
     const Id id = fault.record.id;
     if (workbench_.display.is_visible({.kind = Item::Kind::kFault, .id = id})) shown.insert(id);
+  }
+  return shown;
+}
+
+std::vector<IsosurfaceLook> SceneDrawing::shown_shapes() const {
+  std::vector<IsosurfaceLook> shown;
+  for (const IsosurfaceLook& look : workbench_.display.isosurfaces()) {
+    if (look.visible && !look.as_picture && shapes_.triangle_count(look.id) > 0) shown.push_back(look);
   }
   return shown;
 }
@@ -249,6 +297,28 @@ bool SceneDrawing::upload_one() {
     planes_.put(*gl_, first->first, first->second);
     work_ += kWorkPerSlice / 4;
     samples_to_upload_.erase(first);
+    return true;
+  }
+  // A mesh that is not there yet takes its samples later.
+  const auto voxels = std::ranges::find_if(voxels_to_upload_, [this](const auto& entry) {
+    return meshes_.has(entry.first);
+  });
+  if (voxels != voxels_to_upload_.end()) {
+    meshes_.put_voxels(*gl_, voxels->first, voxels->second);
+    work_ += kWorkPerSlice / 8 + (voxels->second ? voxels->second->count() * 4 : 0);
+    voxels_to_upload_.erase(voxels);
+    return true;
+  }
+  if (!shapes_to_upload_.empty()) {
+    const auto first = shapes_to_upload_.begin();
+    if (first->second != nullptr) {
+      work_ += kWorkPerSlice;
+      ++counters.uploads;
+      shapes_.put(*gl_, first->second);
+    } else {
+      shapes_.remove(*gl_, first->first);
+    }
+    shapes_to_upload_.erase(first);
     return true;
   }
   if (picture_to_upload_) {
@@ -329,6 +399,17 @@ FaceColouring SceneDrawing::colouring_of(Id fault) const {
   const Freshness state = source.freshness(fault, look.statistic);
   how.plain = look.colours != FaceColours::kStatistic || state == Freshness::kPlain || !range_;
   how.hatched = state == Freshness::kStale;
+  if (look.colours == FaceColours::kVoxels && frame_) {
+    const SampleLook& samples = workbench_.display.samples();
+    const SampleColours as_in_sections = sample_colours();
+    how.plain = how.hatched = false;
+    how.voxels = true;
+    how.to_voxels = to_voxels();
+    how.interpolate = samples.interpolate;
+    how.range = {static_cast<float>(as_in_sections.low()), static_cast<float>(as_in_sections.high())};
+    how.colours = colours_named(samples.colour_map);
+    return how;
+  }
   if (how.plain) return how;
   how.range = {static_cast<float>(range_->first), static_cast<float>(range_->second)};
   const std::string_view name = bar_ ? bar_->colours->name() : "viridis";
@@ -336,8 +417,53 @@ FaceColouring SceneDrawing::colouring_of(Id fault) const {
   return how;
 }
 
+SampleColours SceneDrawing::sample_colours() const {
+  const SectionReader::VolumeFacts* facts = workbench_.sections.facts(workbench_.display.volume());
+  return {workbench_.display.samples(), facts != nullptr ? facts : voxel_facts};
+}
+
+// The frame is an affine map of index space: its inverse.
+render::Matrix4 SceneDrawing::to_voxels() const {
+  const Vec3 zero = frame_->scene_of(survey::IndexPoint{0, 0, 0});
+  const Vec3 a = frame_->scene_of(survey::IndexPoint{1, 0, 0}) - zero;
+  const Vec3 b = frame_->scene_of(survey::IndexPoint{0, 1, 0}) - zero;
+  const Vec3 c = frame_->scene_of(survey::IndexPoint{0, 0, 1}) - zero;
+  const double det = dot(a, cross(b, c));
+  render::Matrix4 inverse{};
+  inverse[15] = 1;
+  const std::array rows{cross(b, c), cross(c, a), cross(a, b)};
+  for (std::size_t n = 0; n < 3; ++n) {
+    const Vec3 row = rows[n] * (1 / det);
+    inverse[4 * n] = row.x;
+    inverse[4 * n + 1] = row.y;
+    inverse[4 * n + 2] = row.z;
+    inverse[4 * n + 3] = -dot(row, zero);
+  }
+  return inverse;
+}
+
+std::optional<ColourBar> SceneDrawing::voxel_bar() const {
+  const auto& volumes = workbench_.document.volumes();
+  const auto volume = std::ranges::find(volumes, workbench_.display.volume(), &project::VolumeRecord::id);
+  const std::set<Id> shown = shown_faults();
+  if (volume == volumes.end() || std::ranges::none_of(shown, [this](Id fault) { return meshes_.has(fault); }))
+    return {};
+  const SampleColours as_in_sections = sample_colours();
+  ColourBar bar;
+  bar.title = QString::fromStdString(volume->name);
+  bar.unit = volume->role == "amplitude" ? QStringLiteral("amplitude") : QString();
+  bar.range = {as_in_sections.low(), as_in_sections.high()};
+  bar.state = voxels_are_there ? Freshness::kFresh : Freshness::kFollowing;
+  bar.colours = &render::ColourMap::named("grey");
+  for (const render::ColourMap& one : render::ColourMap::all()) {
+    if (workbench_.display.samples().colour_map.toStdString() == one.name()) bar.colours = &one;
+  }
+  return bar;
+}
+
 std::optional<ColourBar> SceneDrawing::colour_bar() const {
   const FaceLook& look = workbench_.display.faces();
+  if (look.colours == FaceColours::kVoxels) return voxel_bar();
   if (look.colours != FaceColours::kStatistic) return {};
   ColourBar bar;
   bar.title = look.statistic == QStringLiteral("variance")

@@ -5,7 +5,9 @@
 #include <optional>
 #include <set>
 
+#include "ui/model/sample_colours.h"
 #include "ui/scene3d/fault_meshes.h"
+#include "ui/scene3d/isosurface_meshes.h"
 #include "ui/scene3d/isosurface_picture.h"
 #include "ui/scene3d/marks.h"
 #include "ui/scene3d/panels.h"
@@ -46,13 +48,24 @@ class SceneDrawing {
   void camera_moved();
   void set_moving(bool moving);
   void want_fine();
+  // Samples around a fault, for faces that show them; null: none.
+  void put_voxels(Id fault, std::shared_ptr<const VoxelBricks> bricks);
   void put_samples(Id plane, std::shared_ptr<const SectionSamples> samples);
   void put_picture(std::shared_ptr<const Picture> picture, const render::Matrix4& view_projection);
   void clear_picture();
+  // Triangles of an isosurface; those of the display that are shown as triangles are drawn.
+  void put_shape(std::shared_ptr<const IsosurfaceShape> shape);
+  void drop_shape(Id isosurface);
+  void isosurfaces_changed();
+  void flat_changed() { flat_old_ = true; }  // what lies flat on the scene
   void set_loose_plane(Id plane);
   void set_hot_plane(Id plane);  // whose frame is hovered or dragged
   bool has_mouse = false;        // the mouse is in this view
   double picture_share = 1;      // of a picture under way; 1: none is
+  double shape_share = 1;        // of an isosurface's triangles under way; 1: none are
+  bool voxels_are_there = true;  // no samples around faults are awaited
+  // Of the volume that faces show, where the sections' reader has not opened it.
+  const SectionReader::VolumeFacts* voxel_facts = nullptr;
 
   // --- drawing ---
   // A bounded part of what is to be done; true while something is left.
@@ -67,8 +80,11 @@ class SceneDrawing {
 
   // --- asked by the mouse ---
   const std::optional<render::SceneFrame>& frame() const { return frame_; }
+  const std::optional<render::SceneFrame>& flat() const { return flat_; }  // at exaggeration 1
   const FaultGeometry* geometry(Id fault) const;
   std::set<Id> shown_faults() const;
+  std::vector<IsosurfaceLook> shown_shapes() const;  // isosurfaces as triangles
+  const IsosurfaceShape* shape(Id isosurface) const { return shapes_.shape(isosurface); }
   double heights() const { return heights_; }
   render::Vec3 flat_of(const survey::WorldPoint& p) const;  // scene metres at exaggeration 1
   render::Camera seen() const { return camera.camera(view_); }
@@ -76,7 +92,7 @@ class SceneDrawing {
 
  private:
   struct Step {
-    enum class Kind { kBackground, kFaces, kPlane, kPicture, kMarks, kLabels };
+    enum class Kind { kBackground, kFaces, kIsosurface, kPlane, kPicture, kMarks, kLabels };
     Kind kind = Kind::kBackground;
     Id id = 0;
     std::size_t first = 0, count = 0;
@@ -90,8 +106,10 @@ class SceneDrawing {
   };
   static constexpr std::size_t kWorkPerSlice = 15'000;    // triangles
   static constexpr std::size_t kQuickTriangles = 20'000;  // while the camera moves
+  static constexpr std::size_t kQuickShapeTriangles = 12'000;  // of all isosurfaces, while the camera moves
   static constexpr std::size_t kLooseTriangles = 20'000;  // of one fault that is being edited
   static constexpr int kFineSamples = 4;
+  static constexpr int kQuickPixels = 250'000;  // of a frame while the camera moves, without a graphics card
   static constexpr int kTile = 1024;
 
   Pass pass_now() const;
@@ -113,13 +131,20 @@ class SceneDrawing {
   void draw_background(const Pass& pass);
   void draw_plane(const Pass& pass, Id plane);
   int quick_level() const;  // of coarse faces; -1: all
-  void draw_quickly(const Pass& pass);
+  void draw_quickly(const Pass& quick);
+  void paint_small(GLuint framebuffer, const Pass& pass, int side);
+  int pixels_at_once(const Pass& pass) const;
+  std::array<float, 3> colour_of(Id isosurface) const;
+  void draw_shapes_quickly(const Pass& pass);
   void draw_loose(const Pass& pass);
   void draw_over(const Pass& pass);
   void draw_hover(const Pass& pass);
   void begin(GLuint target, const Pass& pass);
   void copy(const GlTarget& from, GLuint to, GLbitfield what);
   FaceColouring colouring_of(Id fault) const;
+  SampleColours sample_colours() const;
+  render::Matrix4 to_voxels() const;
+  std::optional<ColourBar> voxel_bar() const;
   GLuint colours_named(const QString& name) const;
   std::optional<ColourBar> colour_bar() const;
   std::size_t spend(std::size_t triangles);
@@ -140,6 +165,7 @@ class SceneDrawing {
   SectionPlanes planes_;
   Marks marks_;
   IsosurfacePicture picture_;
+  IsosurfaceMeshes shapes_;
   GlProgram background_;
   GLuint background_layout_ = 0;
   mutable std::map<QString, GLuint> colour_tables_;
@@ -152,15 +178,18 @@ class SceneDrawing {
   std::set<Id> standing_picks_;     // selected pillars of faults that are not loose
   std::optional<int> coarse_made_;  // the level that all standing faults have
   std::map<Id, std::shared_ptr<const SectionSamples>> samples_to_upload_;
+  std::map<Id, std::shared_ptr<const VoxelBricks>> voxels_to_upload_;
+  std::map<Id, std::shared_ptr<const IsosurfaceShape>> shapes_to_upload_;  // null: to go
   std::optional<std::pair<std::shared_ptr<const Picture>, render::Matrix4>> picture_to_upload_;
   bool static_marks_old_ = true, camera_marks_old_ = true, loose_marks_old_ = true, flat_old_ = true;
   std::optional<std::pair<double, double>> range_;
   std::optional<ColourBar> bar_;
   bool range_old_ = true;  // range_ and bar_ are
 
-  GlTarget frame_target_, front_target_, back_target_, fine_target_, fine_samples_, tile_target_,
+  GlTarget frame_target_, quick_target_, front_target_, back_target_, fine_target_, fine_samples_, tile_target_,
       tile_samples_;
   Layer front_, back_, fine_;
+  bool is_software_ = false;  // the processor draws
   bool front_valid_ = false, front_old_ = true, fine_valid_ = false, fine_wanted_ = false, moving_ = false;
   Id loose_plane_ = 0, hot_plane_ = 0;
   std::size_t work_ = 0;

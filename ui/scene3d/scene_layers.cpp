@@ -30,6 +30,12 @@ std::vector<SceneDrawing::Step> SceneDrawing::steps_of(const std::set<Id>& witho
       steps.push_back({Step::Kind::kFaces, fault, first, std::min(kWorkPerSlice, count - first)});
     }
   }
+  for (const IsosurfaceLook& look : shown_shapes()) {
+    const std::size_t count = shapes_.triangle_count(look.id);
+    for (std::size_t first = 0; first < count; first += kWorkPerSlice) {
+      steps.push_back({Step::Kind::kIsosurface, look.id, first, std::min(kWorkPerSlice, count - first)});
+    }
+  }
   for (const Display::ShownSection& shown : workbench_.display.sections()) {
     if (shown.in_scene && shown.id != without_plane)
       steps.push_back({.kind = Step::Kind::kPlane, .id = shown.id});
@@ -76,6 +82,9 @@ void SceneDrawing::draw_step(const Pass& pass, const Step& step) {
     case Step::Kind::kFaces:
       spend(meshes_.draw(gl, step.id, colouring_of(step.id), step.first, step.count));
       return;
+    case Step::Kind::kIsosurface:
+      spend(shapes_.draw(gl, pass, step.id, colour_of(step.id), step.first, step.count));
+      return;
     case Step::Kind::kPlane:
       return draw_plane(pass, step.id);
     case Step::Kind::kPicture:
@@ -121,6 +130,30 @@ void SceneDrawing::draw_plane(const Pass& pass, Id plane) {
   planes_.draw(*gl_, pass, plane, place_of(samples->section, *frame_), how);
 }
 
+std::array<float, 3> SceneDrawing::colour_of(Id isosurface) const {
+  const auto& all = workbench_.display.isosurfaces();
+  const auto found = std::ranges::find(all, isosurface, &IsosurfaceLook::id);
+  const QColor colour(found == all.end() ? QString() : found->colour);
+  if (!colour.isValid()) return {0.6F, 0.6F, 0.6F};
+  return {colour.redF(), colour.greenF(), colour.blueF()};
+}
+
+void SceneDrawing::draw_shapes_quickly(const Pass& pass) {
+  const std::vector<IsosurfaceLook> shown = shown_shapes();
+  std::size_t level = 0;
+  const auto all_of = [&](std::size_t at) {
+    std::size_t all = 0;
+    for (const IsosurfaceLook& look : shown) all += shapes_.coarse_count(look.id, at);
+    return all;
+  };
+  while (level + 1 < IsosurfaceShape::kCoarse.size() && all_of(level) > kQuickShapeTriangles) ++level;
+  std::size_t drawn = 0;
+  for (const IsosurfaceLook& look : shown) {
+    if (drawn > kQuickShapeTriangles) break;
+    drawn += spend(shapes_.draw_coarse(*gl_, pass, look.id, colour_of(look.id), level));
+  }
+}
+
 int SceneDrawing::quick_level() const {
   const std::set<Id> shown = shown_faults();
   const auto last = static_cast<int>(FaultMeshes::kCoarse.size()) - 1;
@@ -133,9 +166,16 @@ int SceneDrawing::quick_level() const {
   return last;
 }
 
-void SceneDrawing::draw_quickly(const Pass& pass) {
-  Pass quick = pass;
-  quick.quick = true;
+// Pixels of the picture along each side of one that is drawn while the camera moves.
+int SceneDrawing::pixels_at_once(const Pass& pass) const {
+  if (!is_software_) return 1;
+  int side = 1;
+  while (pass.width / side * (pass.height / side) > kQuickPixels) ++side;
+  return side;
+}
+
+// All but letters with few triangles, into the bound target.
+void SceneDrawing::draw_quickly(const Pass& quick) {
   ++counters.coarse_frames;
   draw_background(quick);
   const std::set<Id> shown = shown_faults();
@@ -150,12 +190,33 @@ void SceneDrawing::draw_quickly(const Pass& pass) {
     drawn += spend(level < 0 ? meshes_.draw(*gl_, fault, how, 0, count)
                              : meshes_.draw_coarse(*gl_, fault, how, level));
   }
+  draw_shapes_quickly(quick);
   for (const Display::ShownSection& section : workbench_.display.sections()) {
     if (section.in_scene) draw_plane(quick, section.id);
   }
   for (const auto kind : {Step::Kind::kPicture, Step::Kind::kMarks}) draw_step(quick, {.kind = kind});
   marks_.draw(*gl_, quick, loose_lines_, true);
-  marks_.draw(*gl_, quick, labels_);
+}
+
+// A frame of a moving camera with fewer pixels, spread over the framebuffer; letters are as sharp as ever, and over all.
+void SceneDrawing::paint_small(GLuint framebuffer, const Pass& pass, int side) {
+  Pass quick = pass;
+  quick.quick = true;
+  quick.width = quick.whole_width = (pass.width + side - 1) / side;
+  quick.height = quick.whole_height = (pass.height + side - 1) / side;
+  quick.pixel = pass.pixel / side;
+  quick_target_.resize(*gl_, quick.width, quick.height, 1);
+  begin(quick_target_.name(), quick);
+  draw_quickly(quick);
+  marks_.draw(*gl_, quick, over_lines_, false, Marks::kLift);
+  draw_hover(quick);
+  gl_->glBlitNamedFramebuffer(quick_target_.name(), framebuffer, 0, 0, quick.width, quick.height, 0, 0, pass.width,
+                              pass.height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  begin(framebuffer, pass);
+  gl_->glDisable(GL_DEPTH_TEST);
+  marks_.draw(*gl_, pass, labels_);
+  if (std::exchange(flat_old_, false)) refresh_flat(view_, texts_, pixel_, true);
+  marks_.draw(*gl_, pass, flat_sprites_);
 }
 
 void SceneDrawing::draw_loose(const Pass& pass) {
@@ -191,8 +252,9 @@ void SceneDrawing::copy(const GlTarget& from, GLuint to, GLbitfield what) {
 
 bool SceneDrawing::has_work() const {
   if (gl_ == nullptr) return false;
+  const auto has_mesh = [this](const auto& entry) { return meshes_.has(entry.first); };
   if (!meshes_to_upload_.empty() || !numbers_to_upload_.empty() || !samples_to_upload_.empty() ||
-      picture_to_upload_) {
+      !shapes_to_upload_.empty() || picture_to_upload_ || std::ranges::any_of(voxels_to_upload_, has_mesh)) {
     return true;
   }
   if (moving_) return false;
@@ -267,27 +329,30 @@ void SceneDrawing::paint(GLuint framebuffer) {
   }
   refresh_range();
   const Pass pass = pass_now();
-  frame_target_.resize(*gl_, pass.width, pass.height, 1);
-  if (fine_valid_ && front_valid_) {
-    copy(fine_target_, frame_target_.name(), GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    begin(frame_target_.name(), pass);
-    draw_over(pass);
-  } else if (front_valid_) {
-    copy(front_target_, frame_target_.name(), GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    begin(frame_target_.name(), pass);
-    draw_loose(pass);
-    draw_over(pass);
-  } else {
-    refresh_static_marks();
-    if (std::exchange(camera_marks_old_, false)) refresh_camera_marks(pass, view_, texts_);
-    refresh_loose_marks();
-    begin(frame_target_.name(), pass);
-    draw_quickly(pass);
-  }
   // Frames of planes and what is hovered change without the layer.
   std::vector<Line> over;
   for (const Display::ShownSection& shown : workbench_.display.sections()) add_frame_lines(over, shown.id);
   over_lines_.set(*gl_, over);
+  if (!front_valid_) {
+    refresh_static_marks();
+    if (std::exchange(camera_marks_old_, false)) refresh_camera_marks(pass, view_, texts_);
+    refresh_loose_marks();
+    if (const int side = pixels_at_once(pass); side > 1) return paint_small(framebuffer, pass, side);
+  }
+  frame_target_.resize(*gl_, pass.width, pass.height, 1);
+  if (front_valid_) {
+    const GlTarget& from = fine_valid_ ? fine_target_ : front_target_;
+    copy(from, frame_target_.name(), GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    begin(frame_target_.name(), pass);
+    if (!fine_valid_) draw_loose(pass);
+    draw_over(pass);
+  } else {
+    Pass quick = pass;
+    quick.quick = true;
+    begin(frame_target_.name(), quick);
+    draw_quickly(quick);
+    marks_.draw(*gl_, quick, labels_);
+  }
   marks_.draw(*gl_, pass, over_lines_, false, Marks::kLift);
   draw_hover(pass);
   if (std::exchange(flat_old_, false)) refresh_flat(view_, texts_, pixel_, true);

@@ -170,8 +170,8 @@ void SceneDrawing::refresh_flat(const QSizeF& view, TextImages& texts, double pi
       }
     }
   }
-  if (with_state && picture_share < 1) {
-    QImage line(QSize(std::max(1, static_cast<int>(view.width() * pixel * std::max(0.06, picture_share))),
+  if (const double share = std::min(picture_share, shape_share); with_state && share < 1) {
+    QImage line(QSize(std::max(1, static_cast<int>(view.width() * pixel * std::max(0.06, share))),
                       static_cast<int>(std::ceil(2 * pixel))),
                 QImage::Format_RGBA8888_Premultiplied);
     line.setDevicePixelRatio(pixel);

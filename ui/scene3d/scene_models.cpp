@@ -48,13 +48,26 @@ void SceneView::Private::connect_models() {
     changed();
   };
   QObject::connect(&document, &Document::faults_changed, &view, all_again);
+  QObject::connect(&document, &Document::faults_changed, &view, [this] { ask_for_voxels(); });
+  QObject::connect(&voxels, &FaceVoxels::changed, &view, [this](const std::set<Id>& faults) {
+    drawing.voxel_facts = voxels.facts();
+    drawing.voxels_are_there = voxels.is_settled();
+    for (const Id fault : faults) drawing.put_voxels(fault, voxels.bricks(fault));
+    changed();
+  });
+  QObject::connect(&voxels, &FaceVoxels::failed, &view, [this](const QString& message, const QString& hint) {
+    Q_EMIT workbench.document.failed(message, hint);
+  });
   QObject::connect(&document, &Document::volumes_changed, &view, [this] {
     asked.clear();
     ask_for_samples();
+    ask_for_voxels();
+    ask_for_shapes();
   });
   QObject::connect(&workbench.surfaces, &Surfaces::surfaces_changed, &view,
                    [this](const std::set<Id>& faults) {
                      drawing.surfaces_changed(faults);
+                     ask_for_voxels();
                      changed();
                    });
   QObject::connect(&workbench.surfaces, &Surfaces::numbers_changed, &view,
@@ -79,22 +92,29 @@ void SceneView::Private::connect_models() {
   QObject::connect(&workbench.selection, &Selection::hover_changed, &view, [this] { view.update(); });
   QObject::connect(&display, &Display::samples_changed, &view, [this] {
     ask_for_samples();
+    ask_for_voxels();
+    drawing.numbers_changed({});
     drawing.content_changed();
     changed();
   });
   QObject::connect(&display, &Display::faces_changed, &view, [this] {
+    ask_for_voxels();
     drawing.numbers_changed(drawing.shown_faults());
     drawing.content_changed();
     changed();
   });
   QObject::connect(&display, &Display::visibility_changed, &view, [this] {
+    ask_for_voxels();
     drawing.pillars_changed(drawing.shown_faults());
     drawing.numbers_changed(drawing.shown_faults());
     drawing.content_changed();
     changed();
   });
   QObject::connect(&display, &Display::sections_changed, &view, [this] { sections_changed(); });
-  QObject::connect(&display, &Display::isosurfaces_changed, &view, [this] { ask_for_picture(); });
+  QObject::connect(&display, &Display::isosurfaces_changed, &view, [this] {
+    ask_for_picture();
+    ask_for_shapes();
+  });
   QObject::connect(&display, &Display::cursor_moved, &view, [this] {
     if (!drawing.has_mouse) view.update();
   });
@@ -141,6 +161,8 @@ void SceneView::Private::survey_changed() {
   camera_moved();
   asked.clear();
   sections_changed();
+  ask_for_voxels();
+  ask_for_shapes();
 }
 
 void SceneView::Private::sections_changed() {
@@ -176,6 +198,110 @@ void SceneView::Private::ask_for_samples() {
     asked[shown.id] = wanted;
     drawing.source.ask(asker->second.get(), volume, shown.section);
   }
+}
+
+// While a gesture is under way the samples of before serve: bricks reach some voxels beyond a face.
+void SceneView::Private::ask_for_voxels() {
+  std::vector<std::shared_ptr<const FaultSurface>> surfaces;
+  const bool shown = workbench.display.faces().colours == FaceColours::kVoxels;
+  for (const Id fault : shown ? drawing.shown_faults() : std::set<Id>()) {
+    if (workbench.document.is_provisional(fault)) return;
+    const auto surface = drawing.source.surface(fault);
+    if (surface && !surface->faces.empty()) surfaces.push_back(surface);
+  }
+  voxels.want(shown ? workbench.display.volume() : 0, surfaces);
+  drawing.voxel_facts = voxels.facts();
+  drawing.voxels_are_there = voxels.is_settled();
+}
+
+// The triangles of isosurfaces that are shown by them, newest value first.
+void SceneView::Private::ask_for_shapes() {
+  const auto& flat = drawing.flat();
+  std::vector<IsosurfaceRequest> requests;
+  for (const IsosurfaceLook& look : workbench.display.isosurfaces()) {
+    if (look.as_picture || !look.visible || !flat) continue;
+    const auto& volumes = workbench.document.volumes();
+    const auto volume = std::ranges::find(volumes, look.volume, &project::VolumeRecord::id);
+    if (volume == volumes.end()) continue;
+    const auto at = [&](double i, double j, double k) {
+      const auto [x, y, z] = volume->origin;
+      return flat->scene_of(survey::IndexPoint{static_cast<double>(x) + i, static_cast<double>(y) + j,
+                                               static_cast<double>(z) + k});
+    };
+    const Vec3 zero = at(0, 0, 0);
+    requests.push_back({.isosurface = look.id,
+                        .volume = look.volume,
+                        .name = volume->name,
+                        .path = workbench.document.project().volume_path(*volume),
+                        .checksum = volume->checksum,
+                        .place = {zero, {at(1, 0, 0) - zero, at(0, 1, 0) - zero, at(0, 0, 1) - zero}},
+                        .value = look.value});
+  }
+  const auto is_wanted = [&](Id id) {
+    return std::ranges::find(requests, id, &IsosurfaceRequest::isosurface) != requests.end();
+  };
+  std::erase_if(shapes, [&](const auto& entry) { return !is_wanted(entry.first); });
+  drawing.isosurfaces_changed();
+  if (maker == nullptr && requests.empty()) return;
+  if (maker == nullptr) {
+    // Each on the maker's thread; the view's thread takes it if there is still a view.
+    const auto in_window = [this](auto what) { QMetaObject::invokeMethod(&view, what, Qt::QueuedConnection); };
+    IsosurfaceMaker::Events events;
+    events.made = [this, in_window](std::shared_ptr<const IsosurfaceShape> shape) {
+      in_window([this, shape = std::move(shape)] { shape_came(shape); });
+    };
+    events.progress = [this, in_window](double fraction) {
+      in_window([this, fraction] { show_shape_share(fraction); });
+    };
+    events.failed = [this, in_window](const IsosurfaceRequest& request, const std::string& message,
+                                      const std::string& hint) {
+      in_window([this, id = request.isosurface, value = request.value, message = QString::fromStdString(message),
+                 hint = QString::fromStdString(hint)] { shape_failed(id, value, message, hint); });
+    };
+    maker = std::make_unique<IsosurfaceMaker>(std::move(events));
+  }
+  shapes_awaited = maker->want(std::move(requests));
+  show_shape_share(0);
+  changed();
+}
+
+void SceneView::Private::show_shape_share(double fraction) {
+  const double share = shapes_awaited.empty() ? 1 : std::min(fraction, 0.99);
+  if (std::exchange(drawing.shape_share, share) == share) return;
+  drawing.flat_changed();
+  view.update();
+}
+
+void SceneView::Private::shape_came(const std::shared_ptr<const IsosurfaceShape>& shape) {
+  const auto& all = workbench.display.isosurfaces();
+  const auto look = std::ranges::find(all, shape->isosurface, &IsosurfaceLook::id);
+  if (look == all.end() || look->as_picture) return;
+  if (look->value == shape->value) shapes_awaited.erase(shape->isosurface);
+  show_shape_share(0);
+  shapes[shape->isosurface] = shape;
+  drawing.put_shape(shape);
+  changed();
+}
+
+void SceneView::Private::shape_failed(Id isosurface, double value, const QString& message, const QString& hint) {
+  const auto& all = workbench.display.isosurfaces();
+  const auto look = std::ranges::find(all, isosurface, &IsosurfaceLook::id);
+  if (look == all.end() || look->value != value || look->as_picture) return;  // overtaken
+  shapes_awaited.erase(isosurface);
+  // Triangles of another value would be taken for those of this one.
+  shapes.erase(isosurface);
+  drawing.drop_shape(isosurface);
+  show_shape_share(0);
+  changed();
+  Q_EMIT workbench.document.failed(message, hint);
+}
+
+// To a graphics context that has just been made.
+void SceneView::Private::give_what_is_there() {
+  for (const Id fault : drawing.shown_faults()) {
+    if (const auto bricks = voxels.bricks(fault)) drawing.put_voxels(fault, bricks);
+  }
+  for (const auto& [id, shape] : shapes) drawing.put_shape(shape);
 }
 
 void SceneView::Private::ask_for_picture() {

@@ -192,7 +192,7 @@ void SceneView::mouseReleaseEvent(QMouseEvent* event) {
     if (region.size() > 2) d.select_within(region, event->modifiers().testFlag(Qt::ControlModifier));
   } else if (was == Private::Mouse::kPressed) {
     const bool marks = below.item.kind == Item::Kind::kNode || below.item.kind == Item::Kind::kPillar ||
-                       below.item.kind == Item::Kind::kFace;
+                       below.item.kind == Item::Kind::kFace || below.item.kind == Item::Kind::kIsosurface;
     const bool extend = event->modifiers().testFlag(Qt::ControlModifier);
     if (marks) {
       d.workbench.selection.select(below.item, extend);

@@ -156,6 +156,16 @@ SceneView::Under SceneView::under(const QPointF& pixel) const {
     const Vec3 at = ray.from + ray.along * hit->distance;
     result.place = index_at(at);
   }
+  for (const IsosurfaceLook& look : drawing.shown_shapes()) {
+    const auto hit = drawing.shape(look.id)->tree.first_hit(flat, nearest);
+    if (!hit) continue;
+    nearest = hit->distance;
+    result.hit = true;
+    result.on_plane = false;
+    result.plane = 0;
+    result.item = {.kind = Item::Kind::kIsosurface, .id = look.id};
+    result.place = index_at(ray.from + ray.along * hit->distance);
+  }
   // Along the view's axis, as depths of nodes are.
   const render::Camera camera = drawing.seen();
   const double depth =

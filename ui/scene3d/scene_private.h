@@ -4,6 +4,7 @@
 #include <QPolygonF>
 #include <QTimer>
 
+#include "ui/model/face_voxels.h"
 #include "ui/scene3d/scene_drawing.h"
 #include "ui/scene3d/selecting_overlay.h"
 
@@ -11,12 +12,13 @@ namespace footwall::ui {
 
 struct SceneView::Private {
   Private(SceneView& owner, Workbench& workbench_)
-      : view(owner), workbench(workbench_), drawing(workbench_) {}
+      : view(owner), workbench(workbench_), voxels(workbench_.document), drawing(workbench_) {}
 
   enum class Mouse { kNone, kOrbit, kPan, kZoom, kPlane, kPicking, kPressed, kSelecting };
 
   SceneView& view;
   Workbench& workbench;
+  FaceVoxels voxels;
   SceneDrawing drawing;
   Gl gl;
   QString problem;
@@ -25,7 +27,9 @@ struct SceneView::Private {
   QTimer fine_timer;  // nothing has changed for a while
   bool was_settled = true;
   bool fitted = false;
-  bool isosurfaces_old = true;
+  // The words that set the camera last, and where it stood then: angles round, words must not.
+  QString camera_words;
+  std::array<double, 9> numbers_of_words{};
 
   // One asker for each plane: the reader keeps the newest request of each.
   std::map<Id, std::unique_ptr<QObject>> askers;
@@ -33,6 +37,11 @@ struct SceneView::Private {
   std::map<std::uint64_t, render::Matrix4> pictures_asked;
   std::uint64_t last_picture = 0;
   int passes = 0;
+
+  // Triangles of isosurfaces that were made, for another graphics context.
+  std::map<Id, std::shared_ptr<const IsosurfaceShape>> shapes;
+  std::unique_ptr<IsosurfaceMaker> maker;  // made when first needed
+  std::set<Id> shapes_awaited;
 
   Mouse mouse = Mouse::kNone;
   QPointF pressed_at, last_at;
@@ -52,6 +61,13 @@ struct SceneView::Private {
   void sections_changed();
   void ask_for_samples();
   void ask_for_picture();
+  void ask_for_voxels();
+  void ask_for_shapes();
+  void shape_came(const std::shared_ptr<const IsosurfaceShape>& shape);
+  void shape_failed(Id isosurface, double value, const QString& message, const QString& hint);
+  void show_shape_share(double fraction);
+  void give_what_is_there();
+  std::array<double, 9> camera_numbers() const;
   void stop_waiting();
   void picture_came(const std::shared_ptr<const Picture>& picture);
   void camera_moved();

@@ -50,6 +50,8 @@ SceneView::SceneView(Workbench& workbench, QWidget* parent)
   d_->take_style();
   d_->drawing.camera.set_perspective(workbench.display.perspective());
   d_->sections_changed();
+  d_->ask_for_voxels();
+  d_->ask_for_shapes();
 }
 
 SceneView::~SceneView() {
@@ -63,6 +65,7 @@ void SceneView::set_source(SceneSource source) {
   std::set<Id> all;
   for (const Fault& fault : d_->workbench.document.faults()) all.insert(fault.record.id);
   d_->drawing.surfaces_changed(all);
+  d_->ask_for_voxels();
   d_->changed();
 }
 
@@ -133,7 +136,7 @@ void SceneView::Private::do_work() {
 bool SceneView::is_settled() const {
   const Private& d = *d_;
   if (!d.problem.isEmpty()) return true;
-  return d.drawing.is_built() && !d.rest_timer.isActive() && !d.fine_timer.isActive() &&
+  return d.drawing.is_built() && d.voxels.is_settled() && d.drawing.shape_share == 1 && !d.rest_timer.isActive() && !d.fine_timer.isActive() &&
          !d.drawing.has_work();
 }
 
@@ -156,6 +159,7 @@ void SceneView::initializeGL() {
   // The widget may get another context when it moves to another window.
   connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] { d_->forget_gl(); });
   d.ask_for_samples();
+  d.give_what_is_there();
   d.changed();
 }
 
@@ -264,12 +268,22 @@ QString SceneView::problem() const {
 }
 
 QString SceneView::camera_text() const {
-  const OrbitCamera& camera = d_->drawing.camera;
+  const std::array<double, 9> now = d_->camera_numbers();
+  if (!d_->camera_words.isEmpty() && d_->numbers_of_words == now) return d_->camera_words;
   QStringList parts;
-  for (const Vec3& p : {camera.eye(), camera.target(), camera.up()}) {
-    parts << QStringLiteral("%1,%2,%3").arg(p.x, 0, 'g', 12).arg(p.y, 0, 'g', 12).arg(p.z, 0, 'g', 12);
+  for (std::size_t n = 0; n < now.size(); n += 3) {
+    const auto number = [](double x) { return QString::number(x, 'g', QLocale::FloatingPointShortest); };
+    parts << QStringLiteral("%1,%2,%3").arg(number(now[n]), number(now[n + 1]), number(now[n + 2]));
   }
   return parts.join(u';');
+}
+
+// Eye, target and up.
+std::array<double, 9> SceneView::Private::camera_numbers() const {
+  const Vec3 eye = drawing.camera.eye();
+  const Vec3 up = drawing.camera.up();
+  const Vec3& target = drawing.camera.target();
+  return {eye.x, eye.y, eye.z, target.x, target.y, target.z, up.x, up.y, up.z};
 }
 
 bool SceneView::set_camera_text(const QString& text) {
@@ -294,6 +308,8 @@ bool SceneView::set_camera_text(const QString& text) {
                                      d_->drawing.camera.elevation());
   }
   d_->fitted = true;
+  d_->camera_words = text;
+  d_->numbers_of_words = d_->camera_numbers();
   d_->camera_moved();
   return true;
 }

@@ -11,6 +11,7 @@
 #include "ui/panels/jobs_panel.h"
 #include "ui/panels/project_panel.h"
 #include "ui/window/actions.h"
+#include "ui/window/dialogs.h"
 #include "ui/window/main_window.h"
 #include "ui/window/saved_views.h"
 #include "ui/window/theme.h"
@@ -90,6 +91,8 @@ void Docks::show_workbench(Workbench* workbench) {
   auto* project = new ProjectPanel(*workbench, action);
   connect(project, &ProjectPanel::view_asked, this,
           [this](const QString& name) { restore_view(window_, name); });
+  connect(project, &ProjectPanel::isosurface_asked, this,
+          [this](Id isosurface) { open_isosurface_dialog(window_, isosurface); });
   dock(Panel::kProject)->setWidget(project);
   dock(Panel::kInspector)->setWidget(new InspectorPanel(*workbench, action));
   dock(Panel::kJobs)->setWidget(new JobsPanel({&workbench->jobs, &window_.start_jobs()}));

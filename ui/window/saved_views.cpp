@@ -3,6 +3,7 @@
 #include <QCoreApplication>
 #include <QInputDialog>
 #include <QJsonDocument>
+#include <algorithm>
 
 #include "ui/model/project_tree.h"
 #include "ui/window/main_window.h"
@@ -20,7 +21,30 @@ void tell(MainWindow& window, const Error& error) {
   window.tell_failure(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
 }
 
-// All but which sections and isosurfaces there are: those stay where the user has them.
+// Isosurfaces as the view has them; those that it does not know are hidden, those that are gone come back.
+void take_over_isosurfaces(const Display& from, Workbench& bench) {
+  Display& to = bench.display;
+  std::vector<IsosurfaceLook> stored = from.isosurfaces();
+  for (IsosurfaceLook look : std::vector<IsosurfaceLook>(to.isosurfaces())) {
+    const auto same = std::ranges::find_if(
+        stored, [&](const IsosurfaceLook& one) { return one.volume == look.volume && one.value == look.value; });
+    look.visible = same != stored.end() && same->visible;
+    if (same != stored.end()) {
+      look.colour = same->colour;
+      look.as_picture = same->as_picture;
+      stored.erase(same);
+    }
+    to.change_isosurface(look);
+  }
+  const auto& volumes = bench.document.volumes();
+  for (IsosurfaceLook look : stored) {
+    if (std::ranges::find(volumes, look.volume, &project::VolumeRecord::id) == volumes.end()) continue;
+    look.id = to.add_isosurface(look.volume, look.value);
+    to.change_isosurface(look);
+  }
+}
+
+// All but which sections there are: those stay where the user has them.
 void take_over(const Display& from, Workbench& bench) {
   Display& to = bench.display;
   if (from.volume() != 0) to.set_volume(from.volume());
@@ -30,6 +54,7 @@ void take_over(const Display& from, Workbench& bench) {
     const Item item{.kind = Item::Kind::kFault, .id = fault.record.id};
     to.set_visible(item, from.is_visible(item));
   }
+  take_over_isosurfaces(from, bench);
   to.set_exaggeration(from.exaggeration());
   to.set_perspective(from.perspective());
 }

@@ -50,6 +50,12 @@ void IsosurfaceDialogTest::the_surface_follows_the_mark() {
   dialog.findChild<QDoubleSpinBox*>(QStringLiteral("value"))->setValue(0.25);
   QCOMPARE(workbench.display.isosurfaces()[0].value, 0.25);
   QCOMPARE(histogram->value(), 0.25);
+  auto* shown_as = dialog.findChild<QComboBox*>(QStringLiteral("shown as"));
+  QVERIFY(workbench.display.isosurfaces()[0].as_picture);
+  QCOMPARE(shown_as->currentIndex(), 0);
+  QTest::keyClick(shown_as, Qt::Key_Down);
+  QVERIFY(!workbench.display.isosurfaces()[0].as_picture);
+  QCOMPARE(workbench.display.isosurfaces()[0].value, 0.25);
   keep_picture(dialog, QStringLiteral("isosurface"));
   dialog.accept();
   QCOMPARE(workbench.display.isosurfaces().size(), std::size_t{1});

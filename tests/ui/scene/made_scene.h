@@ -51,6 +51,23 @@ inline std::shared_ptr<FaultSurface> joined(const Document& document, Id fault, 
   return surface;
 }
 
+// Of three pillars each, in rows through a survey of 48 x 40 lines and 64 samples.
+inline void add_many_faults(Document& document, int count) {
+  const survey::Geometry survey = *document.survey();
+  document.edit("Many", [&](project::Interpretation& now) {
+    for (int n = 0; n < count; ++n) {
+      const Id fault = now.add_fault("many " + std::to_string(n));
+      for (int p = 0; p < 3; ++p) {
+        const double i = 2 + 44.0 * (n % 20) / 20;
+        const double j = 2 + 36.0 * (n / 20) / 10 + p;
+        const std::array nodes{survey.world_of({i, j, 2}), survey.world_of({i + 1, j, 30}),
+                               survey.world_of({i + 3, j, 61})};
+        now.add_pillar(fault, survey::PillarKind::kInterpreted, nodes);
+      }
+    }
+  });
+}
+
 class MadeScene {
  public:
   explicit MadeScene(const survey::Index& size = {48, 40, 64}, int rows = 14, int columns = 5)

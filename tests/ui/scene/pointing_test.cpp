@@ -53,6 +53,7 @@ class PointingTest final : public QObject {
   void selects_by_box_and_lasso();
   void a_lasso_assigns_pillars_in_one_step();
   void presets_say_what_the_mouse_does();
+  void cameras_come_back_exactly();
 };
 
 void PointingTest::finds_faces_pillars_and_nodes() {
@@ -334,6 +335,33 @@ void PointingTest::presets_say_what_the_mouse_does() {
     QCOMPARE(dragged(Qt::LeftButton, Qt::AltModifier), MouseAction::kOrbit);
   }
   scene.bench.mouse.choose(QStringLiteral("Footwall"));
+}
+
+void PointingTest::cameras_come_back_exactly() {
+  MadeScene scene;
+  QVERIFY(scene.settle());
+  for (const double exaggeration : {1.0, 3.0}) {
+    scene.bench.display.set_exaggeration(exaggeration);
+    for (const StandardView view : {StandardView::kOblique, StandardView::kTop, StandardView::kSouth}) {
+      scene.view->look(view);
+      for (int turn = 0; turn < 4; ++turn) {
+        const QString camera = scene.view->camera_text();
+        const Vec3 eye = scene.view->camera().eye();
+        const bool looks = turn == 1;
+        QVERIFY(!looks || scene.settle());
+        const QImage before = looks ? scene.grabbed("camera_before") : QImage();
+        scene.view->look(StandardView::kEast);
+        QVERIFY(scene.view->camera_text() != camera);
+        QVERIFY(scene.view->set_camera_text(camera));
+        QCOMPARE(scene.view->camera_text(), camera);
+        QVERIFY(length(scene.view->camera().eye() - eye) < 1e-9 * length(eye));
+        QVERIFY(!looks || scene.settle());
+        QVERIFY(!looks || scene.grabbed("camera_after") == before);
+        QTest::keyClick(scene.view.get(), turn % 2 == 0 ? Qt::Key_Right : Qt::Key_Down);
+        QTest::keyClick(scene.view.get(), Qt::Key_Plus);
+      }
+    }
+  }
 }
 
 static const RegisterTest<PointingTest> kRegistered;

@@ -7,27 +7,6 @@
 #include "ui/test_class.h"
 
 namespace footwall::ui {
-namespace {
-
-constexpr int kFaults = 200;
-
-void add_many_faults(Document& document) {
-  const survey::Geometry survey = *document.survey();
-  document.edit("Many", [&](project::Interpretation& now) {
-    for (int n = 0; n < kFaults; ++n) {
-      const Id fault = now.add_fault("many " + std::to_string(n));
-      for (int p = 0; p < 3; ++p) {
-        const double i = 2 + 44.0 * (n % 20) / 20;
-        const double j = 2 + 36.0 * (n / 20) / 10 + p;
-        const std::array nodes{survey.world_of({i, j, 2}), survey.world_of({i + 1, j, 30}),
-                               survey.world_of({i + 3, j, 61})};
-        now.add_pillar(fault, survey::PillarKind::kInterpreted, nodes);
-      }
-    }
-  });
-}
-
-}  // namespace
 
 class SpeedTest final : public QObject {
   Q_OBJECT
@@ -38,7 +17,7 @@ class SpeedTest final : public QObject {
 
 void SpeedTest::a_mouse_move_draws_what_moves() {
   MadeScene scene({48, 40, 64}, 50, 25);
-  add_many_faults(scene.bench.document);
+  add_many_faults(scene.bench.document, 200);
   std::set<Id> all;
   std::size_t triangles = 0;
   for (const Fault& fault : scene.bench.document.faults()) {

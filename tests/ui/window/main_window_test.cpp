@@ -361,14 +361,39 @@ void MainWindowTest::saves_and_restores_views() {
   const QWidget& scene = *window.views()->scene()->view();
   window.actions().action(QStringLiteral("view.from-south"))->trigger();
   display.set_visible(fault, false);
+  const Id volume = window.workbench()->document.volumes().front().id;
+  const Id kept = display.add_isosurface(volume, 0.5);
+  const Id deleted = display.add_isosurface(volume, 0.7);
+  IsosurfaceLook as_triangles = display.isosurfaces()[0];
+  as_triangles.as_picture = false;
+  display.change_isosurface(as_triangles);
   const QString stored = camera(scene);
   QVERIFY(save_view_as(window, QStringLiteral("from the south")));
   window.actions().action(QStringLiteral("view.from-top"))->trigger();
   display.set_visible(fault, true);
   QVERIFY(camera(scene) != stored);
+  as_triangles.as_picture = true;
+  as_triangles.colour = QStringLiteral("#123456");
+  display.change_isosurface(as_triangles);
+  display.remove_isosurface(deleted);
+  const Id unknown = display.add_isosurface(volume, 0.9);
   restore_view(window, QStringLiteral("from the south"));
   QVERIFY(!display.is_visible(fault));
   QCOMPARE(camera(scene), stored);
+  QCOMPARE(display.isosurfaces().size(), std::size_t{3});
+  for (const IsosurfaceLook& look : display.isosurfaces()) {
+    QCOMPARE(look.visible, look.id != unknown);
+    if (look.id == kept) QVERIFY(!look.as_picture && look.colour != as_triangles.colour);
+    if (look.id != kept && look.id != unknown) QCOMPARE(look.value, 0.7);
+  }
+  // Enter on its row opens the dialog of an isosurface that is there.
+  auto* panel = window.findChild<ProjectPanel*>();
+  Q_EMIT panel->activated(panel->tree().index_of({.kind = Item::Kind::kIsosurface, .id = kept}));
+  QTRY_VERIFY(QApplication::activeModalWidget() != nullptr || !window.findChildren<QDialog*>().isEmpty());
+  QDialog* dialog = window.findChildren<QDialog*>().back();
+  QCOMPARE(dialog->windowTitle(), QStringLiteral("Isosurface"));
+  dialog->reject();
+  QCOMPARE(display.isosurfaces().size(), std::size_t{3});
   restore_view(window, QStringLiteral("no such view"));
   QVERIFY(window.banners().has(QStringLiteral("failure")));
 }

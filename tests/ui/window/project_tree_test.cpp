@@ -53,6 +53,22 @@ void ProjectTreeTest::lists_what_there_is() {
   QCOMPARE(index.data(ProjectTree::kColour).value<QColor>(),
            QColor(QString::fromStdString(fault.record.colour)));
   QVERIFY(!tree.item_of(tree.index(1, 0)));
+  // How an isosurface is shown, where it is not a picture; a cube by its side.
+  const Id volume = bench->document.volumes().front().id;
+  IsosurfaceLook look{.id = bench->display.add_isosurface(volume, 0.5), .volume = volume, .value = 0.5};
+  const auto detail = [&] {
+    return tree.index_of({.kind = Item::Kind::kIsosurface, .id = look.id})
+        .data(ProjectTree::kDetail)
+        .toString();
+  };
+  QCOMPARE(detail(), QString());
+  look.as_picture = false;
+  bench->display.change_isosurface(look);
+  QCOMPARE(detail(), QStringLiteral("mesh"));
+  const SampleProject cube("faulted", {32, 32, 32});
+  const auto other = open(cube);
+  ProjectTree cubes(other->document, other->display);
+  QCOMPARE(cubes.index(0, 0, cubes.index(0, 0)).data(ProjectTree::kDetail).toString(), QStringLiteral("32³"));
 }
 
 void ProjectTreeTest::follows_edits_undo_and_what_is_shown() {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <set>
 
 #include "engine/tasks/export_sticks.h"
 #include "scratch_folder.h"
@@ -32,6 +33,19 @@ class SticksOfAProject : public ::testing::Test {
 
   ScratchFolder folder_;
 };
+
+TEST_F(SticksOfAProject, EachFaultHasAColourOfItsOwn) {
+  project::Project project = make("p.footwall", true);
+  const std::string rows =
+      "INLINE- 100 300 1000 2000 100 A 1\nINLINE- 100 301 1000 2025 120 A 1\n"
+      "INLINE- 100 310 1000 2250 100 B 1\nINLINE- 100 311 1000 2275 120 B 1\n";
+  import_sticks(project, sticks(rows), "charisma", {}, {});
+  import_sticks(project, sticks(rows), "charisma", {}, {});
+  std::set<std::string> colours;
+  for (const project::FaultRecord& fault : project.faults()) colours.insert(fault.colour);
+  EXPECT_EQ(project.faults().size(), 4U);
+  EXPECT_EQ(colours.size(), 4U);
+}
 
 TEST_F(SticksOfAProject, ComeInAsOneUndoableEditInTheSurveysUnit) {
   project::Project project = make("p.footwall", true);
