@@ -247,7 +247,8 @@ Chart fit_chart(std::span<const PillarInput> pillars) {
   const Vector3 origin = middle.place();
   Moments moments{};
   for (const PillarInput* p : ordered) {
-    for (const IndexPoint& q : p->nodes) add_moment(moments, {q.i - origin[0], q.j - origin[1], q.k - origin[2]});
+    for (const IndexPoint& q : p->nodes)
+      add_moment(moments, {q.i - origin[0], q.j - origin[1], q.k - origin[2]});
   }
   if (!(std::sqrt(std::max(0.0, middle_moment(moments)) / middle.count) > kTouch))
     throw Error(ErrorCode::kInvalid, "the pillars' nodes all lie on one line",

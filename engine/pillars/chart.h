@@ -56,10 +56,10 @@ struct Chart {
 // voxel). The normal's first component beyond 1e-9 is positive.
 Chart fit_chart(std::span<const PillarInput> pillars);
 
-// The same with the spread along the pillars and the spread from pillar to pillar weighing alike, however long
-// the pillars are and however close together: for a fault picked on few lines, whose nodes' plain fit turns
-// towards the section as soon as one of them sticks out. Nothing below three pillars with nodes, or where they do
-// not span a plane. The nodes are finite.
+// The same with the spread along the pillars and the spread from pillar to pillar weighing alike, however
+// long the pillars are and however close together: for a fault picked on few lines, whose nodes' plain fit
+// turns towards the section as soon as one of them sticks out. Nothing below three pillars with nodes, or
+// where they do not span a plane. The nodes are finite.
 std::optional<Chart> fit_chart_across(std::span<const PillarInput> pillars);
 
 }  // namespace footwall::pillars

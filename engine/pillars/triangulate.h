@@ -79,12 +79,13 @@ std::int64_t pair_id(std::int64_t pillar_a, std::int64_t pillar_b);
 
 // chart: the one stored with the fault; nothing, or an empty one, to find it (first triangulation,
 // --rechart). Faces wind so that at the first triangulation the mean normal has a positive first component
-// that is not zero. Three pillars or more that cannot be made a surface in that chart are tried in one fitted anew,
-// then in fit_chart_across(); the mesh has the chart that served. The order of `pillars` does not matter. A pillar of one node makes a fan at the fault's
-// end, or a point inside a panel. Deterministic: the same bits for the same input on every machine; one
-// thread. Throws Error kInvalid naming the pillars: fewer than two, none with nodes, not finite, all on one
-// line, pillars on top of each other, crossing beyond the tolerance, folded in the chart, two parts joined in
-// a single point; kUsage for options that are not positive; kMemory above 5 million vertices; kCancelled.
+// that is not zero. Three pillars or more that cannot be made a surface in that chart are tried in one fitted
+// anew, then in fit_chart_across(); the mesh has the chart that served. The order of `pillars` does not
+// matter. A pillar of one node makes a fan at the fault's end, or a point inside a panel. Deterministic: the
+// same bits for the same input on every machine; one thread. Throws Error kInvalid naming the pillars: fewer
+// than two, none with nodes, not finite, all on one line, pillars on top of each other, crossing beyond the
+// tolerance, folded in the chart, two parts joined in a single point; kUsage for options that are not
+// positive; kMemory above 5 million vertices; kCancelled.
 FaultMesh triangulate(std::span<const PillarInput> pillars, const Options& options,
                       const std::optional<Chart>& chart, const JobContext& job);
 

@@ -18,7 +18,8 @@ namespace {
 
 QString in_words(const Error& error) {
   const QString message = QString::fromStdString(error.message());
-  return error.hint().empty() ? message : message + QStringLiteral(": ") + QString::fromStdString(error.hint());
+  return error.hint().empty() ? message
+                              : message + QStringLiteral(": ") + QString::fromStdString(error.hint());
 }
 
 QVBoxLayout* with_caption(const QString& text, QWidget* widget, QWidget* parent) {
@@ -43,7 +44,8 @@ CompareDialog::CompareDialog(Workbench& workbench, QWidget* parent) : QDialog(pa
   for (const project::StatisticRecord& one : workbench.surfaces.statistics()) {
     const QString name = QString::fromStdString(one.name);
     statistic_->addItem(name, QString::fromStdString(one.colour_map));
-    statistic_->setItemData(statistic_->count() - 1, QString::fromStdString(one.description), Qt::ToolTipRole);
+    statistic_->setItemData(statistic_->count() - 1, QString::fromStdString(one.description),
+                            Qt::ToolTipRole);
   }
   statistic_->setCurrentText(QStringLiteral("variance"));
   compare_ = new QPushButton(tr("Compare"), this);
@@ -85,7 +87,8 @@ CompareDialog::CompareDialog(Workbench& workbench, QWidget* parent) : QDialog(pa
   connect(view_, &CompareView::pointed, read_out_, &QLabel::setText);
   connect(compare_, &QPushButton::clicked, this, &CompareDialog::compare);
   connect(close, &QPushButton::clicked, this, &QDialog::reject);
-  connect(csv_, &QPushButton::clicked, this, [this] { ask_file(QStringLiteral(".csv"), &CompareDialog::write_csv); });
+  connect(csv_, &QPushButton::clicked, this,
+          [this] { ask_file(QStringLiteral(".csv"), &CompareDialog::write_csv); });
   connect(picture_, &QPushButton::clicked, this,
           [this] { ask_file(QStringLiteral(".png"), &CompareDialog::write_picture); });
   connect(&workbench.document, &Document::runs_changed, this, &CompareDialog::fill_runs);
@@ -110,7 +113,8 @@ void CompareDialog::fill_runs() {
     box->clear();
     for (const project::RunRecord& run : runs) {
       const QString name = QString::fromStdString(run.name);
-      const QString label = run.volume.empty() ? name : tr("%1 (%2)").arg(name, QString::fromStdString(run.volume));
+      const QString label =
+          run.volume.empty() ? name : tr("%1 (%2)").arg(name, QString::fromStdString(run.volume));
       box->addItem(label, static_cast<qlonglong>(run.id));
     }
     const int last = box->count() - (box == run_a_ ? 2 : 1);
@@ -179,10 +183,10 @@ void CompareDialog::say(const QString& text, QPalette::ColorRole role) {
 
 void CompareDialog::ask_file(const QString& suffix, void (CompareDialog::*write)(const QString&)) {
   const QFileInfo project(QString::fromStdString(workbench_.document.project().path().string()));
-  const QString proposed =
-      project.absolutePath() + QLatin1Char('/') + project.completeBaseName() + QStringLiteral("-difference") + suffix;
-  const QString file =
-      QFileDialog::getSaveFileName(this, tr("Export comparison"), proposed, QStringLiteral("*%1").arg(suffix));
+  const QString proposed = project.absolutePath() + QLatin1Char('/') + project.completeBaseName() +
+                           QStringLiteral("-difference") + suffix;
+  const QString file = QFileDialog::getSaveFileName(this, tr("Export comparison"), proposed,
+                                                    QStringLiteral("*%1").arg(suffix));
   if (!file.isEmpty()) (this->*write)(file);
 }
 
@@ -204,7 +208,8 @@ void CompareDialog::write_picture(const QString& file) {
   QImage picture(view_->size() * kScale, QImage::Format_RGB32);
   picture.setDevicePixelRatio(kScale);
   view_->render(&picture);
-  if (picture.save(file, "PNG")) return say(tr("%1 written").arg(QFileInfo(file).fileName()), QPalette::WindowText);
+  if (picture.save(file, "PNG"))
+    return say(tr("%1 written").arg(QFileInfo(file).fileName()), QPalette::WindowText);
   say(tr("cannot write %1: is the folder there, and not full?").arg(file), QPalette::BrightText);
 }
 

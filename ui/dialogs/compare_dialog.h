@@ -22,7 +22,8 @@ class CompareDialog final : public QDialog {
   const std::shared_ptr<const ComparedImages>& compared() const { return compared_; }
   QString message() const { return message_->text(); }
   CompareView& view() { return *view_; }
-  // As jobs of the workbench (the picture at once), to a file that is replaced; the message says what was written.
+  // As jobs of the workbench (the picture at once), to a file that is replaced; the message says what was
+  // written.
   void write_csv(const QString& file);
   void write_picture(const QString& file);
 

@@ -121,16 +121,18 @@ void CompareView::draw_axes(QPainter& painter, const QRectF& raster, bool with_d
   for (double at = 0; at * scale < raster.width(); at += step) {
     const double x = raster.left() + at * scale;
     painter.drawLine(QPointF(x, raster.bottom()), QPointF(x, raster.bottom() + 4));
-    painter.drawText(QRectF(x - kTickSpacing / 2, raster.bottom() + 4, kTickSpacing, 14), Qt::AlignCenter, metres(at));
+    painter.drawText(QRectF(x - kTickSpacing / 2, raster.bottom() + 4, kTickSpacing, 14), Qt::AlignCenter,
+                     metres(at));
   }
-  painter.drawText(QRectF(raster.left(), raster.bottom() + 17, std::max(raster.width(), 120.0), 14), Qt::AlignLeft,
-                   tr("along strike, m"));
+  painter.drawText(QRectF(raster.left(), raster.bottom() + 17, std::max(raster.width(), 120.0), 14),
+                   Qt::AlignLeft, tr("along strike, m"));
   if (!with_down) return;
   const double down_step = round_step(kDownSpacing / scale);
   for (double at = 0; at * scale < raster.height(); at += down_step) {
     const double y = raster.top() + at * scale;
     painter.drawLine(QPointF(raster.left() - 4, y), QPointF(raster.left(), y));
-    painter.drawText(QRectF(raster.left() - 46, y - 8, 40, 16), Qt::AlignRight | Qt::AlignVCenter, metres(at));
+    painter.drawText(QRectF(raster.left() - 46, y - 8, 40, 16), Qt::AlignRight | Qt::AlignVCenter,
+                     metres(at));
   }
   painter.save();
   painter.translate(12, raster.center().y());
@@ -144,9 +146,10 @@ void CompareView::draw_bar(QPainter& painter, const QRectF& bar, const ComparedI
   const double width = bar.width() * 0.8;
   for (std::size_t n = 0; n < table.size(); ++n) {
     const double from = bar.left() + width * static_cast<double>(n) / static_cast<double>(table.size());
-    painter.fillRect(QRectF(from, bar.top(), width / static_cast<double>(table.size()) + 1, 10),
-                     QColor(static_cast<int>(render::red(table[n])), static_cast<int>(render::green(table[n])),
-                            static_cast<int>(render::blue(table[n]))));
+    painter.fillRect(
+        QRectF(from, bar.top(), width / static_cast<double>(table.size()) + 1, 10),
+        QColor(static_cast<int>(render::red(table[n])), static_cast<int>(render::green(table[n])),
+               static_cast<int>(render::blue(table[n]))));
   }
   painter.setPen(palette().color(QPalette::Text));
   const QRectF below(bar.left(), bar.top() + 12, width, 16);

@@ -1,4 +1,5 @@
-// Run A, run B and B - A over a fault's chart, side by side: axes in metres, colour bars, the values under the cursor.
+// Run A, run B and B - A over a fault's chart, side by side: axes in metres, colour bars, the values under
+// the cursor.
 #pragma once
 #include <QWidget>
 #include <memory>

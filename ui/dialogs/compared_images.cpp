@@ -13,8 +13,10 @@ QRgb pixel_of(render::Rgba colour) {
               static_cast<int>(render::blue(colour)));
 }
 
-void paint(const tasks::ChartRaster& raster, const std::vector<double>& values, ComparedImages::Panel& panel) {
-  panel.image = QImage(static_cast<int>(raster.columns), static_cast<int>(raster.rows), QImage::Format_ARGB32);
+void paint(const tasks::ChartRaster& raster, const std::vector<double>& values,
+           ComparedImages::Panel& panel) {
+  panel.image =
+      QImage(static_cast<int>(raster.columns), static_cast<int>(raster.rows), QImage::Format_ARGB32);
   const render::ColourMap& map = render::ColourMap::named(panel.colour_map);
   for (int row = 0; row < panel.image.height(); ++row) {
     auto* line = reinterpret_cast<QRgb*>(panel.image.scanLine(row));

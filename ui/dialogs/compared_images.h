@@ -21,8 +21,8 @@ struct ComparedImages {
   const std::vector<double>& values(std::size_t panel) const;
 };
 
-// A and B share one range (2nd to 98th percentile of both) and the statistic's own colour map; the difference is symmetric
-// about zero, red and blue.
+// A and B share one range (2nd to 98th percentile of both) and the statistic's own colour map; the difference
+// is symmetric about zero, red and blue.
 ComparedImages pictured(tasks::RunComparison comparison, const std::string& colour_map);
 
 }  // namespace footwall::ui

@@ -117,7 +117,8 @@ QString suffix_of(const ExportChoice& choice) {
 QString with_suffix(const QString& file, const ExportChoice& choice) {
   const QString wanted = suffix_of(choice);
   QString stem = file;
-  for (const char* known : {".csv", ".vtp", ".ts", ".dat", ".png", ".sgy", ".segy", ".vti", ".nrrd", ".raw"}) {
+  for (const char* known :
+       {".csv", ".vtp", ".ts", ".dat", ".png", ".sgy", ".segy", ".vti", ".nrrd", ".raw"}) {
     if (stem.endsWith(QLatin1String(known), Qt::CaseInsensitive)) {
       stem.chop(static_cast<qsizetype>(qstrlen(known)));
       break;
@@ -135,7 +136,8 @@ QStringList stick_format_names() {
   return names;
 }
 
-std::function<Exported(const JobContext&)> prepare_export(const project::Project& project, const ExportChoice& choice,
+std::function<Exported(const JobContext&)> prepare_export(const project::Project& project,
+                                                          const ExportChoice& choice,
                                                           const WritePicture& write_picture) {
   if (choice.kind == ExportChoice::Kind::kPicture) {
     if (!write_picture)
@@ -146,7 +148,8 @@ std::function<Exported(const JobContext&)> prepare_export(const project::Project
   auto beside = std::make_shared<const project::Project>(project.beside());
   return [beside, choice](const JobContext& job) {
     if (is_volume(choice.kind)) return volume_into(*beside, choice, job);
-    return choice.kind == ExportChoice::Kind::kSticks ? sticks_into(*beside, choice) : faces_into(*beside, choice, job);
+    return choice.kind == ExportChoice::Kind::kSticks ? sticks_into(*beside, choice)
+                                                      : faces_into(*beside, choice, job);
   };
 }
 

@@ -36,10 +36,11 @@ struct Exported {
   QString text;         // "3,108 faces of 2 faults, statistics of run 3"
   QStringList notices;  // names that had to change, faults that are stale
 };
-// In the window's thread: makes the picture, and opens a connection to the project for the rest. What comes back reads and
-// writes, on any thread. Both throw what tasks::write_faces(), tasks::export_sticks(), tasks::export_segy() and their
-// likes, and write_picture throw.
-std::function<Exported(const JobContext&)> prepare_export(const project::Project& project, const ExportChoice& choice,
+// In the window's thread: makes the picture, and opens a connection to the project for the rest. What comes
+// back reads and writes, on any thread. Both throw what tasks::write_faces(), tasks::export_sticks(),
+// tasks::export_segy() and their likes, and write_picture throw.
+std::function<Exported(const JobContext&)> prepare_export(const project::Project& project,
+                                                          const ExportChoice& choice,
                                                           const WritePicture& write_picture);
 
 }  // namespace footwall::ui

@@ -9,7 +9,8 @@ QComboBox* fault_box(const Workbench& workbench, bool with_all, bool at_active, 
   for (const Fault& fault : workbench.document.faults()) {
     const QString name = QString::fromStdString(fault.record.name);
     box->addItem(name, name);
-    if (at_active && fault.record.id == workbench.selection.active_fault()) box->setCurrentIndex(box->count() - 1);
+    if (at_active && fault.record.id == workbench.selection.active_fault())
+      box->setCurrentIndex(box->count() - 1);
   }
   return box;
 }

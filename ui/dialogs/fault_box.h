@@ -6,7 +6,8 @@
 
 namespace footwall::ui {
 
-// "all faults" first where `with_all`; the active fault is chosen where `at_active`. Data: the fault's name, none for all.
+// "all faults" first where `with_all`; the active fault is chosen where `at_active`. Data: the fault's name,
+// none for all.
 QComboBox* fault_box(const Workbench& workbench, bool with_all, bool at_active, QWidget* parent);
 
 }  // namespace footwall::ui

@@ -45,9 +45,9 @@ IsosurfaceDialog::IsosurfaceDialog(Workbench& workbench, Id isosurface, QWidget*
   shown_as_->setObjectName(QStringLiteral("shown as"));
   shown_as_->addItem(tr("Picture by the engine"));
   shown_as_->addItem(tr("Mesh of triangles"));
-  shown_as_->setToolTip(
-      tr("A picture costs the same however large the surface is, and is drawn anew for each camera; triangles "
-         "are made here, turn with the scene and can be picked"));
+  shown_as_->setToolTip(tr(
+      "A picture costs the same however large the surface is, and is drawn anew for each camera; triangles "
+      "are made here, turn with the scene and can be picked"));
   message_ = new QLabel(this);
   message_->setWordWrap(true);
   message_->setForegroundRole(QPalette::LinkVisited);

@@ -34,10 +34,14 @@ std::optional<int> history_keep_days(const project::Project& project) {
 }
 
 std::string days_ago(int days) {
-  return QDateTime::currentDateTimeUtc().addDays(-days).toString(QStringLiteral("yyyy-MM-ddTHH:mm:ssZ")).toStdString();
+  return QDateTime::currentDateTimeUtc()
+      .addDays(-days)
+      .toString(QStringLiteral("yyyy-MM-ddTHH:mm:ssZ"))
+      .toStdString();
 }
 
-TrimHistoryDialog::TrimHistoryDialog(Workbench& workbench, QWidget* parent) : QDialog(parent), workbench_(workbench) {
+TrimHistoryDialog::TrimHistoryDialog(Workbench& workbench, QWidget* parent)
+    : QDialog(parent), workbench_(workbench) {
   setWindowTitle(tr("Trim history"));
   setMinimumWidth(420);
   days_ = new QSpinBox(this);
@@ -80,7 +84,8 @@ TrimHistoryDialog::TrimHistoryDialog(Workbench& workbench, QWidget* parent) : QD
   connect(close, &QPushButton::clicked, this, &QDialog::reject);
   connect(remind_, &QCheckBox::toggled, this, [this](bool on) {
     try {
-      workbench_.document.store().set_setting(kKeepDays, on ? std::to_string(days_->value()) : std::string("unlimited"));
+      workbench_.document.store().set_setting(kKeepDays,
+                                              on ? std::to_string(days_->value()) : std::string("unlimited"));
     } catch (const Error& error) {
       message_->setText(QString::fromStdString(error.message()));
     }
@@ -93,10 +98,12 @@ void TrimHistoryDialog::look() {
     const project::Project& project = workbench_.document.project();
     const project::HistorySize all = project.history_size();
     const project::HistorySize old = project.history_size(days_ago(days_->value()));
-    message_->setText(tr("%1 of %2 steps, %3 of %4 MiB, would go. What they did stays; it can no longer be undone.")
-                          .arg(number(old.steps), number(all.steps), mebibytes(old.bytes), mebibytes(all.bytes)));
+    message_->setText(
+        tr("%1 of %2 steps, %3 of %4 MiB, would go. What they did stays; it can no longer be undone.")
+            .arg(number(old.steps), number(all.steps), mebibytes(old.bytes), mebibytes(all.bytes)));
     trim_->setEnabled(old.steps > 0);
-    if (remind_->isChecked()) workbench_.document.store().set_setting(kKeepDays, std::to_string(days_->value()));
+    if (remind_->isChecked())
+      workbench_.document.store().set_setting(kKeepDays, std::to_string(days_->value()));
   } catch (const Error& error) {
     message_->setText(QString::fromStdString(error.message()));
     trim_->setEnabled(false);

@@ -1,4 +1,5 @@
-// What a limit by age would drop of the history, and the dropping: only when the user says so, having seen how much.
+// What a limit by age would drop of the history, and the dropping: only when the user says so, having seen
+// how much.
 #pragma once
 #include <QCheckBox>
 #include <QDialog>
@@ -12,7 +13,8 @@
 
 namespace footwall::ui {
 
-// Days that the history of this project is to be kept for, where the user has said; a reminder, nothing drops by itself.
+// Days that the history of this project is to be kept for, where the user has said; a reminder, nothing drops
+// by itself.
 std::optional<int> history_keep_days(const project::Project& project);
 // The moment that many days ago, as HistoryStep::when.
 std::string days_ago(int days);

@@ -9,10 +9,11 @@
 namespace footwall::ui {
 namespace {
 
-constexpr std::array<std::pair<const char*, Section::Kind>, 4> kKinds{{{"inline", Section::Kind::kInline},
-                                                                       {"crossline", Section::Kind::kCrossline},
-                                                                       {"slice", Section::Kind::kSlice},
-                                                                       {"line", Section::Kind::kLine}}};
+constexpr std::array<std::pair<const char*, Section::Kind>, 4> kKinds{
+    {{"inline", Section::Kind::kInline},
+     {"crossline", Section::Kind::kCrossline},
+     {"slice", Section::Kind::kSlice},
+     {"line", Section::Kind::kLine}}};
 constexpr std::array<std::pair<const char*, FaceColours>, 3> kColours{{{"statistic", FaceColours::kStatistic},
                                                                        {"voxels", FaceColours::kVoxels},
                                                                        {"plain", FaceColours::kPlain}}};
@@ -207,7 +208,8 @@ QJsonObject Display::to_json() const {
   QJsonArray sections, isosurfaces, hidden;
   for (const ShownSection& shown : sections_) sections.append(json_of(shown));
   for (const IsosurfaceLook& look : isosurfaces_) isosurfaces.append(json_of(look));
-  for (const auto& [kind, id] : hidden_) hidden.append(QJsonArray{static_cast<int>(kind), static_cast<double>(id)});
+  for (const auto& [kind, id] : hidden_)
+    hidden.append(QJsonArray{static_cast<int>(kind), static_cast<double>(id)});
   QJsonObject faces{{"colours", word_of(kColours, faces_.colours)},
                     {"statistic", faces_.statistic},
                     {"colour_map", faces_.colour_map},

@@ -1,4 +1,5 @@
-// What is shown and how, as against what is true: kept with the project (setting "studio.display"), not under undo.
+// What is shown and how, as against what is true: kept with the project (setting "studio.display"), not under
+// undo.
 #pragma once
 #include <QJsonObject>
 #include <QObject>
@@ -29,7 +30,7 @@ enum class FaceColours { kStatistic, kVoxels, kPlain };
 struct FaceLook {
   FaceColours colours = FaceColours::kStatistic;
   QString statistic = QStringLiteral("variance");
-  QString colour_map;  // empty: the statistic's own
+  QString colour_map;               // empty: the statistic's own
   std::optional<double> low, high;  // unset: 2nd and 98th percentile over all faults shown
   bool edges = false;
   friend bool operator==(const FaceLook&, const FaceLook&) = default;
@@ -94,7 +95,9 @@ class Display final : public QObject {
   }  // a moved node lies exactly on the section's plane
   bool snaps_to_samples() const { return snaps_to_samples_; }  // nodes lie on samples
   void set_snapping(bool to_section, bool to_samples);
-  double fade_distance() const { return fade_distance_; }  // voxels up to which pillars off the section are drawn
+  double fade_distance() const {
+    return fade_distance_;
+  }  // voxels up to which pillars off the section are drawn
   void set_fade_distance(double voxels);
   double exaggeration() const { return exaggeration_; }  // of heights in the scene, > 0
   void set_exaggeration(double factor);

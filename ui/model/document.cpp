@@ -21,7 +21,8 @@ std::optional<double> stored_velocity(const project::Project& project) {
 
 }  // namespace
 
-Document::Document(project::Project project, QObject* parent) : QObject(parent), project_(std::move(project)) {
+Document::Document(project::Project project, QObject* parent)
+    : QObject(parent), project_(std::move(project)) {
   if (!project_.read_only()) tasks::follow_parents(project_);
   survey_ = project_.survey();
   velocity_ = stored_velocity(project_);
@@ -55,7 +56,8 @@ const Fault* Document::fault_of_node(Id node) const {
 }
 
 bool Document::can_undo() const {
-  const auto last = std::find_if(history_.rbegin(), history_.rend(), [](const auto& step) { return !step.undone; });
+  const auto last =
+      std::find_if(history_.rbegin(), history_.rend(), [](const auto& step) { return !step.undone; });
   return !read_only() && last != history_.rend() && !last->barrier;
 }
 
@@ -118,7 +120,8 @@ bool Document::step(std::int64_t undos, std::int64_t redos) {
 bool Document::take_back() {
   const std::optional<std::string> name = project_.undo();
   if (!name) return false;
-  const auto last = std::find_if(history_.rbegin(), history_.rend(), [](const auto& step) { return !step.undone; });
+  const auto last =
+      std::find_if(history_.rbegin(), history_.rend(), [](const auto& step) { return !step.undone; });
   if (last != history_.rend() && last->name == *name) {
     last->undone = true;
   } else {
@@ -130,7 +133,8 @@ bool Document::take_back() {
 bool Document::bring_back() {
   const std::optional<std::string> name = project_.redo();
   if (!name) return false;
-  const auto done = std::find_if(history_.rbegin(), history_.rend(), [](const auto& step) { return !step.undone; });
+  const auto done =
+      std::find_if(history_.rbegin(), history_.rend(), [](const auto& step) { return !step.undone; });
   const auto first = done.base();  // the step after it
   if (first != history_.end() && first->name == *name) {
     first->undone = false;
@@ -150,8 +154,10 @@ bool Document::redo() {
 
 bool Document::go_to_step(Id id) {
   const auto is_later = [&](const project::HistoryStep& one) { return one.id > id; };
-  const auto undos = std::ranges::count_if(history_, [&](const auto& one) { return is_later(one) && !one.undone; });
-  const auto redos = std::ranges::count_if(history_, [&](const auto& one) { return !is_later(one) && one.undone; });
+  const auto undos =
+      std::ranges::count_if(history_, [&](const auto& one) { return is_later(one) && !one.undone; });
+  const auto redos =
+      std::ranges::count_if(history_, [&](const auto& one) { return !is_later(one) && one.undone; });
   return step(undos, redos);
 }
 
@@ -168,8 +174,8 @@ void Document::refresh(std::map<Id, Fault> already) {
   try {
     // Views read their samples again after reload_volumes().
     const auto same = [](const project::VolumeRecord& a, const project::VolumeRecord& b) {
-      return a.id == b.id && a.name == b.name && a.file == b.file && a.bytes == b.bytes && a.checksum == b.checksum &&
-             a.role == b.role;
+      return a.id == b.id && a.name == b.name && a.file == b.file && a.bytes == b.bytes &&
+             a.checksum == b.checksum && a.role == b.role;
     };
     if (!std::ranges::equal(project_.volumes(), volumes_, same) || stored_velocity(project_) != velocity_ ||
         survey_ != project_.survey()) {
@@ -205,8 +211,8 @@ void Document::reload_volumes() {
   }
 }
 
-// Reads the pillars of those faults alone whose revision differs from what is kept; nothing kept changes before all
-// of that is read.
+// Reads the pillars of those faults alone whose revision differs from what is kept; nothing kept changes
+// before all of that is read.
 void Document::reload_interpretation(std::map<Id, Fault> already) {
   std::vector<project::FaultRecord> records = project_.faults();
   std::map<Id, std::vector<survey::Pillar>> read;
@@ -249,14 +255,16 @@ void Document::reload_interpretation(std::map<Id, Fault> already) {
     now.push_back({std::move(record), std::move(pillars)});
   }
   const auto same_facts = [](const Fault& a, const Fault& b) {
-    return a.record.id == b.record.id && a.record.name == b.record.name && a.record.colour == b.record.colour &&
-           a.record.status == b.record.status && a.record.locked == b.record.locked &&
-           a.record.interpreter == b.record.interpreter && a.record.note == b.record.note;
+    return a.record.id == b.record.id && a.record.name == b.record.name &&
+           a.record.colour == b.record.colour && a.record.status == b.record.status &&
+           a.record.locked == b.record.locked && a.record.interpreter == b.record.interpreter &&
+           a.record.note == b.record.note;
   };
   const bool facts_differ = !std::ranges::equal(faults_, now, same_facts);
   faults_ = std::move(now);
   place_of_fault_.clear();
-  for (std::size_t place = 0; place < faults_.size(); ++place) place_of_fault_[faults_[place].record.id] = place;
+  for (std::size_t place = 0; place < faults_.size(); ++place)
+    place_of_fault_[faults_[place].record.id] = place;
   if (facts_differ) Q_EMIT faults_changed();
   if (!reshaped.empty()) Q_EMIT shapes_changed(reshaped);
 }

@@ -1,5 +1,5 @@
-// The open project as the editor sees it: the interpretation kept in memory, every gesture one edit on disk, and
-// signals for those who show it. Lives in the window's thread.
+// The open project as the editor sees it: the interpretation kept in memory, every gesture one edit on disk,
+// and signals for those who show it. Lives in the window's thread.
 //
 // Nothing here throws into Qt's event loop: what a project refuses comes as the signal failed().
 #pragma once
@@ -37,8 +37,8 @@ class Document final : public QObject {
   ~Document() override;
 
   const project::Project& project() const { return project_; }
-  // For what is derived or about the project: meshes, runs, volumes, views, settings. Who changes those says so with
-  // the signals below. The interpretation is changed by edit() alone.
+  // For what is derived or about the project: meshes, runs, volumes, views, settings. Who changes those says
+  // so with the signals below. The interpretation is changed by edit() alone.
   project::Project& store() { return project_; }
   bool read_only() const { return project_.read_only(); }
   const std::optional<survey::Geometry>& survey() const { return survey_; }
@@ -56,25 +56,26 @@ class Document final : public QObject {
   bool can_undo() const;
   bool can_redo() const;
 
-  // What views and live colours show: the stored pillars, or while a gesture is under way the provisional ones.
+  // What views and live colours show: the stored pillars, or while a gesture is under way the provisional
+  // ones.
   const std::vector<survey::Pillar>& shown_pillars(Id fault) const;
   bool is_provisional(Id fault) const { return provisional_.contains(fault); }
   // Replaces what is shown of the fault until end_provisional() or the next edit; stores nothing.
   void show_provisionally(Id fault, std::vector<survey::Pillar> pillars);
   void end_provisional();
 
-  // One gesture: one step of the history, on disk when this returns. False where the project refused it (failed() has
-  // said why) or nothing differed.
+  // One gesture: one step of the history, on disk when this returns. False where the project refused it
+  // (failed() has said why) or nothing differed.
   bool edit(const QString& name, const std::function<void(project::Interpretation&)>& change);
   bool undo();
   bool redo();
-  // To the state after the step of this number (0: before the first), by as many undos or redos as it takes. Where one
-  // of them is refused, those before it stay done.
+  // To the state after the step of this number (0: before the first), by as many undos or redos as it takes.
+  // Where one of them is refused, those before it stay done.
   bool go_to_step(Id step);
 
-  // Reads again what others may have changed: for a project that somebody else writes, or a job of this program
-  // beside(). already: faults that were read on the way, by id; they are not read a second time where they are the
-  // stored ones still.
+  // Reads again what others may have changed: for a project that somebody else writes, or a job of this
+  // program beside(). already: faults that were read on the way, by id; they are not read a second time where
+  // they are the stored ones still.
   void refresh(std::map<Id, Fault> already = {});
   // The same of the interpretation and its history alone: after an edit that was made in store().
   void refresh_interpretation();
@@ -99,7 +100,8 @@ class Document final : public QObject {
   void reload_volumes();
 
  private:
-  // Work in proportion to what differs, whatever the length of the history and the size of the faults that stay.
+  // Work in proportion to what differs, whatever the length of the history and the size of the faults that
+  // stay.
   void reload_interpretation(std::map<Id, Fault> already = {});
   void follow_change();
   void report(const Error& error);

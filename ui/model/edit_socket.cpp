@@ -17,9 +17,10 @@
 namespace footwall::ui {
 namespace {
 
-constexpr std::size_t kLongestLine = std::size_t{17} << 20;  // a little more than apply_edit_script() lets through
-constexpr std::size_t kMostWaiting = std::size_t{4} << 20;   // answers that the peer does not read
-constexpr int kTurnMs = 20;                                  // then the window has its turn
+constexpr std::size_t kLongestLine = std::size_t{17}
+                                     << 20;  // a little more than apply_edit_script() lets through
+constexpr std::size_t kMostWaiting = std::size_t{4} << 20;  // answers that the peer does not read
+constexpr int kTurnMs = 20;                                 // then the window has its turn
 
 bool is_of_this_user(int socket) {
   ucred peer{};
@@ -70,10 +71,12 @@ void EditSocket::take_connections() {
     peer.writable = std::make_unique<QSocketNotifier>(socket, QSocketNotifier::Write);
     peer.writable->setEnabled(false);
     // Queued: a notifier must not be destroyed from within its own signal.
-    connect(peer.readable.get(), &QSocketNotifier::activated, this, [this, socket] { read_from(socket); },
-            Qt::QueuedConnection);
-    connect(peer.writable.get(), &QSocketNotifier::activated, this, [this, socket] { send_to(socket); },
-            Qt::QueuedConnection);
+    connect(
+        peer.readable.get(), &QSocketNotifier::activated, this, [this, socket] { read_from(socket); },
+        Qt::QueuedConnection);
+    connect(
+        peer.writable.get(), &QSocketNotifier::activated, this, [this, socket] { send_to(socket); },
+        Qt::QueuedConnection);
   }
 }
 
@@ -101,7 +104,8 @@ void EditSocket::apply_lines(int socket) {
     peer.received.erase(0, end + 1);
     peer.to_send += answer_to(line, peer.ends) + '\n';
     if (turn.elapsed() < kTurnMs) continue;
-    QMetaObject::invokeMethod(this, [this, socket] { apply_lines(socket); }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this, [this, socket] { apply_lines(socket); }, Qt::QueuedConnection);
     break;
   }
   if (peer.received.size() > kLongestLine || peer.to_send.size() > kMostWaiting) return drop(socket);

@@ -1,6 +1,6 @@
-// Takes edits from `footwall edit` while this program holds the project: a socket in a folder that nobody else may enter,
-// named in the project's lock. Each line is one edit of the document, seen in the window at once and undone there.
-// What is said on the socket: engine/tasks/edit_at_holder.h.
+// Takes edits from `footwall edit` while this program holds the project: a socket in a folder that nobody
+// else may enter, named in the project's lock. Each line is one edit of the document, seen in the window at
+// once and undone there. What is said on the socket: engine/tasks/edit_at_holder.h.
 #pragma once
 #include <QObject>
 #include <QSocketNotifier>

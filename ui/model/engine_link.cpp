@@ -26,7 +26,8 @@ struct EngineLink::Private {
   std::optional<EngineVolume> engine_volume(Id id) const {
     const auto found = std::ranges::find(document.volumes(), id, &project::VolumeRecord::id);
     if (found == document.volumes().end()) return std::nullopt;
-    return EngineVolume{found->checksum, std::filesystem::absolute(document.project().volume_path(*found)).string()};
+    return EngineVolume{found->checksum,
+                        std::filesystem::absolute(document.project().volume_path(*found)).string()};
   }
 };
 

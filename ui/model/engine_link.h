@@ -1,5 +1,6 @@
 // The window's line to the engine: a local one that is started when first needed, or one that runs already
-// (--engine). Everything that waits does so on a thread of the link; answers are signals in the window's thread.
+// (--engine). Everything that waits does so on a thread of the link; answers are signals in the window's
+// thread.
 #pragma once
 #include <QDateTime>
 #include <QImage>
@@ -22,7 +23,7 @@ struct FaultSurface;
 
 // Statistics of faces by name, as one answer of the engine brings them. Entry n of each is of face n.
 struct EngineNumbers {
-  std::uint64_t edit = 0;  // the newest edit that they know of, with all before it
+  std::uint64_t edit = 0;             // the newest edit that they know of, with all before it
   std::map<Id, std::uint64_t> known;  // of each fault here, the edit that put it as it was computed
   std::vector<std::int64_t> faults, panels;
   std::vector<std::int32_t> face_numbers;
@@ -58,8 +59,8 @@ class EngineLink final : public QObject {
  public:
   enum class State { kOff, kStarting, kReady, kBusy, kLost };
   struct Options {
-    int ranks = 0;       // 0: half the cores, at least one
-    QString connection = {};  // "@FILE" or an address; empty: a local engine
+    int ranks = 0;                // 0: half the cores, at least one
+    QString connection = {};      // "@FILE" or an address; empty: a local engine
     bool starts_at_once = false;  // as soon as there is a volume that statistics can be of
   };
 
@@ -84,8 +85,9 @@ class EngineLink final : public QObject {
   std::uint64_t answered() const;
   // When numbers came last; invalid where none have come.
   QDateTime answered_at() const;
-  // The faces of a fault are these from now on; numbers() of those that changed follow, under the number returned or a
-  // later one. Newest wins. While there is no engine the newest surfaces are kept for when there is one.
+  // The faces of a fault are these from now on; numbers() of those that changed follow, under the number
+  // returned or a later one. Newest wins. While there is no engine the newest surfaces are kept for when
+  // there is one.
   std::uint64_t put_fault(const std::shared_ptr<const FaultSurface>& surface);
   std::uint64_t remove_fault(Id fault);
 

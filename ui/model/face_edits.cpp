@@ -21,7 +21,8 @@ void append(Id fault, const FaultSurface& surface, std::size_t face, v1::Faces& 
 
 }  // namespace
 
-std::size_t append_edits(Id fault, const FaultSurface* before, const FaultSurface* after, v1::EditBatch& batch) {
+std::size_t append_edits(Id fault, const FaultSurface* before, const FaultSurface* after,
+                         v1::EditBatch& batch) {
   if (before == nullptr || after == nullptr) {
     v1::ReplaceFault& replace = *batch.add_edits()->mutable_replace();
     replace.set_fault(fault);
@@ -30,7 +31,8 @@ std::size_t append_edits(Id fault, const FaultSurface* before, const FaultSurfac
     return count;
   }
   std::map<Name, std::size_t> former;
-  for (std::size_t f = 0; f < before->faces.size(); ++f) former[{before->faces[f].panel, before->faces[f].n}] = f;
+  for (std::size_t f = 0; f < before->faces.size(); ++f)
+    former[{before->faces[f].panel, before->faces[f].n}] = f;
   v1::Faces put;
   for (std::size_t f = 0; f < after->faces.size(); ++f) {
     const auto found = former.find({after->faces[f].panel, after->faces[f].n});

@@ -55,7 +55,8 @@ void FaceValues::set_surface(std::shared_ptr<const FaultSurface> surface) {
 
 const std::vector<double>* FaceValues::find(const std::string& statistic) const {
   if (surface_ == nullptr) return nullptr;
-  if (const auto found = surface_->geometry.find(statistic); found != surface_->geometry.end()) return &found->second;
+  if (const auto found = surface_->geometry.find(statistic); found != surface_->geometry.end())
+    return &found->second;
   const auto found = values_.find(statistic);
   return found == values_.end() ? nullptr : &found->second;
 }

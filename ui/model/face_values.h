@@ -1,5 +1,5 @@
-// Statistics of a fault's faces through changes of its surface: faces keep their names (panel, number), so what is known
-// of a face stays known until it moves, and is marked stale then until it is computed again.
+// Statistics of a fault's faces through changes of its surface: faces keep their names (panel, number), so
+// what is known of a face stays known until it moves, and is marked stale then until it is computed again.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -18,16 +18,16 @@ class FaceValues {
  public:
   // The surface that the values are of from now on.
   void set_surface(std::shared_ptr<const FaultSurface> surface);
-  // Values of faces by their names, one of each column a face, computed where their corners stood there. Names that the
-  // surface does not have are passed over.
+  // Values of faces by their names, one of each column a face, computed where their corners stood there.
+  // Names that the surface does not have are passed over.
   void set(std::span<const Id> panels, std::span<const std::int32_t> numbers,
            std::span<const survey::LatticeTriangle> corners,
            const std::map<std::string, std::vector<double>>& columns);
-  // Of many faces at once, as an engine answers: row r of all is of face (panels[r], numbers[r]), computed as the face
-  // stood under this edit. Takes the rows named.
+  // Of many faces at once, as an engine answers: row r of all is of face (panels[r], numbers[r]), computed as
+  // the face stood under this edit. Takes the rows named.
   void take(const std::vector<Id>& panels, const std::vector<std::int32_t>& numbers,
-            const std::map<std::string, std::vector<double>>& statistics, const std::vector<std::size_t>& rows,
-            std::uint64_t edit);
+            const std::map<std::string, std::vector<double>>& statistics,
+            const std::vector<std::size_t>& rows, std::uint64_t edit);
   // The faces that moved when the surface was last set moved under this edit.
   void tell_moved(std::uint64_t edit);
   // What follows from the faces' places alone (FaultSurface::geometry); never stale.
@@ -36,7 +36,8 @@ class FaceValues {
   }
   // product = factor * other, face by face.
   void scale(const std::string& product, const std::string& factor, const std::string& other);
-  // What is computed together with the statistic is of another volume, or along another normal: stale on all faces.
+  // What is computed together with the statistic is of another volume, or along another normal: stale on all
+  // faces.
   void mark_stale(const std::string& statistic);
   void mark_all_stale();
   bool is_known(const std::string& statistic) const { return find(statistic) != nullptr; }
@@ -52,8 +53,8 @@ class FaceValues {
 
   std::shared_ptr<const FaultSurface> surface_;
   std::map<std::string, std::vector<double>> values_;
-  // Where each face stood when its values were computed, those that come with every move and those that come late;
-  // nothing where that is not known.
+  // Where each face stood when its values were computed, those that come with every move and those that come
+  // late; nothing where that is not known.
   std::array<std::vector<std::optional<survey::LatticeTriangle>>, 2> computed_at_;
   std::vector<std::uint64_t> moved_under_;  // the edit that moved each face last
 };

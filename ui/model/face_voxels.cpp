@@ -87,7 +87,8 @@ void FaceVoxels::State::open(const Source& from, std::uint64_t of_round) {
   reader.reset();
   auto opened = std::make_unique<volume::VolumeReader>(from.path);
   if (!from.checksum.empty() && to_hex(opened->info().checksum) != from.checksum) {
-    throw Error(ErrorCode::kCorrupt, from.path.string() + " is not the file that the project knows as " + from.name,
+    throw Error(ErrorCode::kCorrupt,
+                from.path.string() + " is not the file that the project knows as " + from.name,
                 "bring the right file back, or point the project to it with relink");
   }
   SectionReader::VolumeFacts now = facts_of(opened->info().statistics);
@@ -152,7 +153,8 @@ void FaceVoxels::State::run() {
     };
     try {
       open(from, of_round);
-      bricks = read_bricks(*reader, from.volume, from.origin, from.survey, *surface, room, before.get(), outdated);
+      bricks =
+          read_bricks(*reader, from.volume, from.origin, from.survey, *surface, room, before.get(), outdated);
     } catch (const Error& error) {
       failed = true;
       give_up(of_round, QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
@@ -173,7 +175,8 @@ void FaceVoxels::State::run() {
     read_before[fault] = made;
     ++on_their_way;
     QMetaObject::invokeMethod(
-        &owner, [this, of_round, fault, made = std::move(made)] { take(of_round, fault, made); }, Qt::QueuedConnection);
+        &owner, [this, of_round, fault, made = std::move(made)] { take(of_round, fault, made); },
+        Qt::QueuedConnection);
   }
 }
 
@@ -218,11 +221,13 @@ void FaceVoxels::want(Id volume, const std::vector<std::shared_ptr<const FaultSu
     });
     const std::size_t share = kMostBytes / std::max<std::size_t>(1, here.size());
     const std::size_t most = std::max<std::size_t>(1, std::min(share, kMostBytesOfOne) / kBrickBytes);
-    // Another share is of all faults: a smaller one so that their sum stays bounded, a larger one to see more.
+    // Another share is of all faults: a smaller one so that their sum stays bounded, a larger one to see
+    // more.
     for (auto& [fault, one] : state_->wanted) {
       const auto before = state_->read_before.find(fault);
       if (most == state_->most || before == state_->read_before.end() || before->second == nullptr) continue;
-      if (before->second->count() > most || (most > state_->most && before->second->step > 1)) one.is_there = false;
+      if (before->second->count() > most || (most > state_->most && before->second->step > 1))
+        one.is_there = false;
     }
     state_->most = most;
   }

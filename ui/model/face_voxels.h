@@ -1,4 +1,5 @@
-// The samples that faults cut, for faces that show them: read on a thread of their own, kept in step with the surfaces.
+// The samples that faults cut, for faces that show them: read on a thread of their own, kept in step with the
+// surfaces.
 #pragma once
 #include <QObject>
 #include <QString>
@@ -14,8 +15,8 @@ class FaceVoxels final : public QObject {
   Q_OBJECT
 
  public:
-  // Bricks of all faults together hold at most so much; a fault whose share is too small for all its samples has every
-  // second one, fourth one and so on.
+  // Bricks of all faults together hold at most so much; a fault whose share is too small for all its samples
+  // has every second one, fourth one and so on.
   static constexpr std::size_t kMostBytes = std::size_t{128} << 20;
   static constexpr std::size_t kMostBytesOfOne = std::size_t{48} << 20;
 
@@ -23,8 +24,8 @@ class FaceVoxels final : public QObject {
   // Waits for the chunk that is being read.
   ~FaceVoxels() override;
 
-  // What is to be there from now on: bricks of this volume around these surfaces, and nothing else. Those that differ from
-  // what was asked for last are read; the newest surface of a fault wins.
+  // What is to be there from now on: bricks of this volume around these surfaces, and nothing else. Those
+  // that differ from what was asked for last are read; the newest surface of a fault wins.
   void want(Id volume, const std::vector<std::shared_ptr<const FaultSurface>>& surfaces);
   // The newest that were read, perhaps of a former surface of the fault; null before the first.
   std::shared_ptr<const VoxelBricks> bricks(Id fault) const;

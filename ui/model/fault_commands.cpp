@@ -65,7 +65,8 @@ std::vector<WorldPoint> resampled(const std::vector<WorldPoint>& nodes, int coun
     const double wanted = along.back() * n / (count - 1);
     while (segment + 2 < nodes.size() && along[segment + 1] < wanted) ++segment;
     const double length = along[segment + 1] - along[segment];
-    result.push_back(between(nodes[segment], nodes[segment + 1], length > 0 ? (wanted - along[segment]) / length : 0));
+    result.push_back(
+        between(nodes[segment], nodes[segment + 1], length > 0 ? (wanted - along[segment]) / length : 0));
   }
   result.front() = nodes.front();
   result.back() = nodes.back();
@@ -84,8 +85,8 @@ bool reshape(Document& document, const QString& name, const std::set<Id>& pillar
   });
 }
 
-// A fault with a free name and colour, and what else is to happen to it, as one edit; 0: refused. words: of the history, with
-// a place for the name.
+// A fault with a free name and colour, and what else is to happen to it, as one edit; 0: refused. words: of
+// the history, with a place for the name.
 Id make_fault(Document& document, const QString& words,
               const std::function<void(project::Interpretation&, Id)>& then) {
   const QString name = next_fault_name(document);
@@ -100,13 +101,14 @@ Id make_fault(Document& document, const QString& words,
 }
 
 // What a transform moves: nodes by pillar, each node once.
-std::map<Id, std::set<Id>> nodes_of(const Document& document, const std::set<Id>& faults, const std::set<Id>& pillars,
-                                    const std::set<Id>& nodes) {
+std::map<Id, std::set<Id>> nodes_of(const Document& document, const std::set<Id>& faults,
+                                    const std::set<Id>& pillars, const std::set<Id>& nodes) {
   std::map<Id, std::set<Id>> chosen;
   for (const Fault& fault : document.faults()) {
     for (const survey::Pillar& pillar : fault.pillars) {
       const bool whole = faults.contains(fault.record.id) || pillars.contains(pillar.id);
-      // An interpolated pillar follows its parents; moved with its fault it must not become the interpreter's own.
+      // An interpolated pillar follows its parents; moved with its fault it must not become the interpreter's
+      // own.
       if (faults.contains(fault.record.id) && !pillars.contains(pillar.id) &&
           pillar.kind == survey::PillarKind::kInterpolated) {
         continue;
@@ -145,14 +147,16 @@ Id new_fault(Document& document) {
 }
 
 bool rename_fault(Document& document, Id fault, const QString& name) {
-  return document.edit(tr("Rename %1 to %2").arg(name_of(document, fault), name),
-                       [&](project::Interpretation& now) { now.rename_fault(fault, name.trimmed().toStdString()); });
+  return document.edit(
+      tr("Rename %1 to %2").arg(name_of(document, fault), name),
+      [&](project::Interpretation& now) { now.rename_fault(fault, name.trimmed().toStdString()); });
 }
 
 bool set_fault_colour(Document& document, const std::set<Id>& faults, const QString& colour) {
   return document.edit(counted("Colour of a fault", "Colour of %1 faults", faults.size()),
                        [&](project::Interpretation& now) {
-                         for (const Id fault : faults) now.set_fault_property(fault, "colour", colour.toStdString());
+                         for (const Id fault : faults)
+                           now.set_fault_property(fault, "colour", colour.toStdString());
                        });
 }
 
@@ -171,8 +175,8 @@ bool delete_items(Document& document, const std::set<Id>& faults, const std::set
                        : !pillars.empty() ? counted("Delete pillar", "Delete %1 pillars", pillars.size())
                                           : counted("Delete node", "Delete %1 nodes", nodes.size());
   return document.edit(name, [&](project::Interpretation& now) {
-    // Nodes first, then pillars, then faults: what is chosen twice is there when its turn comes. A pillar goes with its
-    // last node, its interpolated children with it.
+    // Nodes first, then pillars, then faults: what is chosen twice is there when its turn comes. A pillar
+    // goes with its last node, its interpolated children with it.
     std::map<Id, std::size_t> left;
     std::set<Id> emptied;
     for (const Id node : nodes) {
@@ -275,7 +279,8 @@ bool accept_pillars(Document& document, const std::set<Id>& pillars) {
   return document.edit(counted("Accept pillar", "Accept %1 pillars", pillars.size()),
                        [&](project::Interpretation& now) {
                          for (const Id pillar : pillars) {
-                           if (now.pillar(pillar).kind == survey::PillarKind::kInterpolated) now.accept_pillar(pillar);
+                           if (now.pillar(pillar).kind == survey::PillarKind::kInterpolated)
+                             now.accept_pillar(pillar);
                          }
                        });
 }

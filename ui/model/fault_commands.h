@@ -1,5 +1,5 @@
-// What the Fault menu does to what is selected: each one edit of the document, named for the history. Each returns false
-// where the project refused (Document::failed has said why) or there was nothing to do.
+// What the Fault menu does to what is selected: each one edit of the document, named for the history. Each
+// returns false where the project refused (Document::failed has said why) or there was nothing to do.
 #pragma once
 #include <QString>
 #include <array>
@@ -15,7 +15,8 @@ namespace footwall::ui {
 inline constexpr const char* kUnassigned = "unassigned";
 bool is_unassigned(const Fault& fault);
 
-// A name not yet taken, "F1", "F2", ..., and a colour that differs from the others in lightness as well as hue.
+// A name not yet taken, "F1", "F2", ..., and a colour that differs from the others in lightness as well as
+// hue.
 QString next_fault_name(const Document& document);
 QString next_fault_colour(const Document& document);
 
@@ -23,7 +24,8 @@ Id new_fault(Document& document);  // 0: refused
 bool rename_fault(Document& document, Id fault, const QString& name);
 bool set_fault_colour(Document& document, const std::set<Id>& faults, const QString& colour);
 bool lock_faults(Document& document, const std::set<Id>& faults, bool locked);
-bool delete_items(Document& document, const std::set<Id>& faults, const std::set<Id>& pillars, const std::set<Id>& nodes);
+bool delete_items(Document& document, const std::set<Id>& faults, const std::set<Id>& pillars,
+                  const std::set<Id>& nodes);
 bool merge_faults(Document& document, Id into, const std::set<Id>& others);
 // The pillars form a new fault.
 Id split_fault(Document& document, const std::set<Id>& pillars);
@@ -38,8 +40,8 @@ bool resample_pillars(Document& document, const std::set<Id>& pillars, int nodes
 bool resample_by_spacing(Document& document, const std::set<Id>& pillars, double metres);
 bool accept_pillars(Document& document, const std::set<Id>& pillars);
 
-// Turned about the vertical through `centre` by degrees clockwise seen from above, scaled about it, then moved; world
-// units. Whole pillars where faults or pillars are given, single nodes where nodes are.
+// Turned about the vertical through `centre` by degrees clockwise seen from above, scaled about it, then
+// moved; world units. Whole pillars where faults or pillars are given, single nodes where nodes are.
 struct Transform {
   survey::WorldPoint move{};
   double rotate_degrees = 0;

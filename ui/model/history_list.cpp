@@ -14,7 +14,9 @@ HistoryList::HistoryList(Document& document, QObject* parent)
 // Tells what differs: a view that lays out thousands of rows anew at every edit would be felt.
 void HistoryList::follow() {
   const std::vector<project::HistoryStep>& now = document_.history();
-  const auto same_step = [](const project::HistoryStep& a, const project::HistoryStep& b) { return a.id == b.id; };
+  const auto same_step = [](const project::HistoryStep& a, const project::HistoryStep& b) {
+    return a.id == b.id;
+  };
   const auto kept = std::ranges::mismatch(steps_, now, same_step).in1 - steps_.begin();
   const int first = static_cast<int>(kept) + 1;  // below the row for the state before all steps
   if (kept < std::ssize(steps_)) {

@@ -33,10 +33,14 @@ int Jobs::start(const QString& title, Work work, Done done) {
   job->title = title;
   job->done = std::move(done);
   job->context = JobContext([this, number](const Progress& progress) {
-    const QString phase = QString::fromUtf8(progress.phase.data(), static_cast<qsizetype>(progress.phase.size()));
+    const QString phase =
+        QString::fromUtf8(progress.phase.data(), static_cast<qsizetype>(progress.phase.size()));
     const QString amounts = QString::fromStdString(progress.amounts);
     QMetaObject::invokeMethod(
-        this, [this, number, fraction = progress.fraction, phase, amounts] { progressed(number, fraction, phase, amounts); },
+        this,
+        [this, number, fraction = progress.fraction, phase, amounts] {
+          progressed(number, fraction, phase, amounts);
+        },
         Qt::QueuedConnection);
   });
   const JobContext context = job->context;
@@ -54,7 +58,8 @@ int Jobs::start(const QString& title, Work work, Done done) {
       message = QString::fromUtf8(error.what());
     }
     QMetaObject::invokeMethod(
-        this, [this, number, state, message, hint] { ended(number, state, message, hint); }, Qt::QueuedConnection);
+        this, [this, number, state, message, hint] { ended(number, state, message, hint); },
+        Qt::QueuedConnection);
   });
   beginInsertRows({}, 0, 0);
   jobs_.insert(jobs_.begin(), std::move(job));

@@ -17,7 +17,18 @@ class Jobs final : public QAbstractListModel {
   Q_OBJECT
 
  public:
-  enum Role { kTitle = Qt::UserRole, kPhase, kAmounts, kFraction, kSecondsLeft, kState, kMessage, kHint, kLog, kNumber };
+  enum Role {
+    kTitle = Qt::UserRole,
+    kPhase,
+    kAmounts,
+    kFraction,
+    kSecondsLeft,
+    kState,
+    kMessage,
+    kHint,
+    kLog,
+    kNumber
+  };
   enum class State { kRunning, kDone, kCancelled, kFailed };
 
   explicit Jobs(QObject* parent = nullptr);
@@ -26,8 +37,8 @@ class Jobs final : public QAbstractListModel {
 
   using Work = std::function<void(const JobContext&)>;
   using Done = std::function<void()>;
-  // work runs on a thread of its own and sees nothing that lives in the window's; done runs in the window's thread after
-  // it ended well. Returns the job's number.
+  // work runs on a thread of its own and sees nothing that lives in the window's; done runs in the window's
+  // thread after it ended well. Returns the job's number.
   int start(const QString& title, Work work, Done done = {});
   void cancel(int job);
   void clear_finished();

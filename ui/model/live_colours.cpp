@@ -86,8 +86,8 @@ struct LiveColours::Session {
   std::uint64_t sent = 0;      // the newest edit told
   std::uint64_t answered = 0;  // guarded by mutex_
   std::uint64_t engine_edit = 0;
-  // Guarded by mutex_, by the engine's number of an edit: our number where it told all there was, and the faults that it
-  // told with our number of each.
+  // Guarded by mutex_, by the engine's number of an edit: our number where it told all there was, and the
+  // faults that it told with our number of each.
   std::map<std::uint64_t, std::uint64_t> ours;
   std::map<std::uint64_t, std::map<Id, std::uint64_t>> batches;
   std::map<Id, std::uint64_t> known;  // of what was answered, our number of each fault
@@ -206,8 +206,10 @@ void LiveColours::work() {
       } else {
         session::LaunchOptions launch;
         launch.ranks = ranks_;
-        if (local == nullptr) local = std::make_unique<service::LocalEngine>(launch, service::LocalEngine::Replay{});
-        local->with_engine([&](service::EngineClient& client) { serve_with(client, local->connection()); }, job);
+        if (local == nullptr)
+          local = std::make_unique<service::LocalEngine>(launch, service::LocalEngine::Replay{});
+        local->with_engine([&](service::EngineClient& client) { serve_with(client, local->connection()); },
+                           job);
       }
       forget_connection();
       local.reset();
@@ -216,14 +218,16 @@ void LiveColours::work() {
       forget_connection();
       lock.lock();
       const bool told_to = ends_ || !wanted_;
-      // LocalEngine starts one that died again, and gives up after three deaths in a minute. One that still runs, but broke
-      // the connection, is asked once more.
-      const bool again = !told_to && served && local != nullptr && local->is_running() && error.code() == ErrorCode::kEngine;
+      // LocalEngine starts one that died again, and gives up after three deaths in a minute. One that still
+      // runs, but broke the connection, is asked once more.
+      const bool again =
+          !told_to && served && local != nullptr && local->is_running() && error.code() == ErrorCode::kEngine;
       if (!told_to && !again) wanted_ = false;
       lock.unlock();
       if (again) continue;
       local.reset();
-      say(told_to ? EngineLink::State::kOff : EngineLink::State::kLost, told_to ? std::string() : error.message());
+      say(told_to ? EngineLink::State::kOff : EngineLink::State::kLost,
+          told_to ? std::string() : error.message());
       if (!told_to) events_.failed(error.message(), error.hint());
     }
   }

@@ -64,7 +64,7 @@ class LiveColours {
   void work();
   void serve(service::EngineClient& client);
   void forget_connection();
-  bool has_work() const;  // mutex_ is held
+  bool has_work() const;                               // mutex_ is held
   bool may_ask_offsets(const Session& session) const;  // mutex_ is held
   // Of the fault that changed last of those that wait. lock: of mutex_, held before and after.
   void ask_offsets(service::EngineClient& client, const std::string& volume, Session& session,
@@ -86,7 +86,7 @@ class LiveColours {
     std::uint64_t edit = 0;
   };
   std::map<Id, Put> surfaces_;
-  std::set<Id> dirty_;  // to be told; those not among surfaces_ are to go
+  std::set<Id> dirty_;           // to be told; those not among surfaces_ are to go
   std::vector<Id> offsets_due_;  // faults whose offsets are not known; the one that changed last at the end
   JobContext offsets_job_;       // of those under way
   std::uint64_t edit_ = 0;

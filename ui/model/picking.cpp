@@ -16,9 +16,9 @@ using namespace std::chrono_literals;
 using survey::IndexPoint;
 using survey::WorldPoint;
 
-constexpr double kStill = 4;          // pixels: less is a click
-constexpr double kStrokeTravel = 5;   // pixels
-constexpr auto kStrokeTime = 200ms;   // longer than a click that slipped
+constexpr double kStill = 4;               // pixels: less is a click
+constexpr double kStrokeTravel = 5;        // pixels
+constexpr auto kStrokeTime = 200ms;        // longer than a click that slipped
 constexpr double kStrokeTolerance = 0.75;  // voxels
 constexpr int kStepWhilePicking = 10;      // lines
 
@@ -36,7 +36,8 @@ struct Picking::State {
   // What the button that is down does.
   enum class Gesture { kNone, kClick, kMoveItems, kStroke, kCopy };
 
-  State(Picking& owner, Document& d, Selection& s, Display& v) : self(owner), document(d), selection(s), display(v) {}
+  State(Picking& owner, Document& d, Selection& s, Display& v)
+      : self(owner), document(d), selection(s), display(v) {}
 
   Picking& self;
   Document& document;
@@ -102,7 +103,8 @@ struct Picking::State {
   }
   // The pillar that a click on empty ground of this section adds to, or null where it starts a new one.
   const survey::Pillar* pillar_to_extend(const Pointer& p) const {
-    if (active == 0 || !(p.section == active_section) || (p.modifiers & Qt::ShiftModifier) != 0) return nullptr;
+    if (active == 0 || !(p.section == active_section) || (p.modifiers & Qt::ShiftModifier) != 0)
+      return nullptr;
     const survey::Pillar* pillar = document.pillar(active);
     const Fault* fault = document.fault_of_pillar(active);
     const bool elsewhere = active_fault() != nullptr && fault != active_fault();
@@ -110,7 +112,8 @@ struct Picking::State {
   }
   // Whether a click on this pillar's line puts a node there.
   bool inserts_into(const Pointer& p) const {
-    if (p.under.kind != Item::Kind::kPillar || p.segment < 0 || (p.modifiers & Qt::ShiftModifier) != 0) return false;
+    if (p.under.kind != Item::Kind::kPillar || p.segment < 0 || (p.modifiers & Qt::ShiftModifier) != 0)
+      return false;
     const Fault* fault = document.fault_of_pillar(p.under.id);
     return p.under.id == active || (fault != nullptr && fault == active_fault());
   }
@@ -187,9 +190,10 @@ struct Picking::State {
     const bool stands_there = std::ranges::any_of(
         found->nodes, [&](const survey::PillarNode& node) { return node.position == position; });
     if (stands_there) return;
-    const bool done = document.edit(tr("Add node (%1)").arg(name_of(*fault)), [&](project::Interpretation& now) {
-      now.insert_node(pillar, static_cast<std::int64_t>(place), position);
-    });
+    const bool done =
+        document.edit(tr("Add node (%1)").arg(name_of(*fault)), [&](project::Interpretation& now) {
+          now.insert_node(pillar, static_cast<std::int64_t>(place), position);
+        });
     if (done) activate(pillar, p.section);
   }
 
@@ -222,18 +226,24 @@ struct Picking::State {
       }
     };
     const auto all = [](const survey::PillarNode&) { return true; };
-    const auto picked = [](const survey::Pillar& pillar) { return pillar.kind != survey::PillarKind::kInterpolated; };
-    const bool of_selection = (p.under.kind == Item::Kind::kNode && selection.nodes().contains(p.under.id)) ||
-                              (p.under.kind == Item::Kind::kPillar && selection.pillars().contains(p.under.id)) ||
-                              (p.under.kind == Item::Kind::kFace && selection.faults().contains(p.under.id));
+    const auto picked = [](const survey::Pillar& pillar) {
+      return pillar.kind != survey::PillarKind::kInterpolated;
+    };
+    const bool of_selection =
+        (p.under.kind == Item::Kind::kNode && selection.nodes().contains(p.under.id)) ||
+        (p.under.kind == Item::Kind::kPillar && selection.pillars().contains(p.under.id)) ||
+        (p.under.kind == Item::Kind::kFace && selection.faults().contains(p.under.id));
     for (const Fault& fault : document.faults()) {
       for (const survey::Pillar& pillar : fault.pillars) {
         if (of_selection) {
           if (selection.pillars().contains(pillar.id) ||
-              (selection.faults().contains(fault.record.id) && p.under.kind == Item::Kind::kFace && picked(pillar))) {
+              (selection.faults().contains(fault.record.id) && p.under.kind == Item::Kind::kFace &&
+               picked(pillar))) {
             grab_pillar(pillar, all);
           } else {
-            grab_pillar(pillar, [this](const survey::PillarNode& node) { return selection.nodes().contains(node.id); });
+            grab_pillar(pillar, [this](const survey::PillarNode& node) {
+              return selection.nodes().contains(node.id);
+            });
           }
         } else if (p.under.kind == Item::Kind::kNode) {
           grab_pillar(pillar, [&p](const survey::PillarNode& node) { return node.id == p.under.id; });
@@ -262,7 +272,8 @@ struct Picking::State {
         IndexPoint after = index_of(section, shifted);
         // Only a single node is drawn onto the plane: a group keeps its shape.
         if (count > 1 || !display.snaps_to_section() || gesture == Gesture::kCopy) {
-          after = {after.i + before.i - on_plane.i, after.j + before.j - on_plane.j, after.k + before.k - on_plane.k};
+          after = {after.i + before.i - on_plane.i, after.j + before.j - on_plane.j,
+                   after.k + before.k - on_plane.k};
         }
         moved[node.id] = world(count == 1 ? snapped(after, section) : after);
       }
@@ -287,7 +298,8 @@ struct Picking::State {
     }
   }
 
-  static survey::Pillar copy_of(const std::vector<survey::PillarNode>& nodes, const std::map<Id, WorldPoint>& moved) {
+  static survey::Pillar copy_of(const std::vector<survey::PillarNode>& nodes,
+                                const std::map<Id, WorldPoint>& moved) {
     survey::Pillar copy;
     for (const survey::PillarNode& node : nodes) copy.nodes.push_back({0, moved.at(node.id)});
     return copy;
@@ -300,14 +312,15 @@ struct Picking::State {
       const survey::Pillar copy = copy_of(grabbed.begin()->second, moved);
       const Fault* fault = document.fault_of_pillar(original);
       Id made = 0;
-      const bool done = document.edit(tr("Copy pillar (%1)").arg(name_of(*fault)), [&](project::Interpretation& now) {
-        made = now.add_pillar(now.fault_of_pillar(original), copy).id;
-      });
+      const bool done =
+          document.edit(tr("Copy pillar (%1)").arg(name_of(*fault)), [&](project::Interpretation& now) {
+            made = now.add_pillar(now.fault_of_pillar(original), copy).id;
+          });
       if (done) activate(made, pressed.section);
       return;
     }
     const Fault* fault = document.fault_of_pillar(grabbed.begin()->first);
-    const QString name = moved.size() == 1      ? tr("Move node (%1)").arg(name_of(*fault))
+    const QString name = moved.size() == 1     ? tr("Move node (%1)").arg(name_of(*fault))
                          : grabbed.size() == 1 ? tr("Move pillar (%1)").arg(name_of(*fault))
                                                : tr("Move selection");
     document.edit(name, [&](project::Interpretation& now) {
@@ -331,8 +344,8 @@ struct Picking::State {
   // Not so after an undo while the button was down.
   bool holds_what_is_there() const {
     return std::ranges::all_of(grabbed, [this](const auto& entry) {
-      return std::ranges::all_of(entry.second,
-                                 [this](const auto& node) { return document.fault_of_node(node.id) != nullptr; });
+      return std::ranges::all_of(
+          entry.second, [this](const auto& node) { return document.fault_of_node(node.id) != nullptr; });
     });
   }
 
@@ -352,11 +365,15 @@ struct Picking::State {
   std::pair<QString, PointerShape> next_click() const {
     if (!inside) return {{}, PointerShape::kArrow};
     if (navigates) return {tr("drag to pan; let Space go to pick on"), PointerShape::kHand};
-    if (gesture == Gesture::kStroke) return {tr("let go to end the pillar; Esc drops it"), PointerShape::kPen};
-    if (gesture == Gesture::kMoveItems) return {tr("let go to move it here; Esc puts it back"), PointerShape::kMoveNode};
-    if (gesture == Gesture::kCopy) return {tr("let go to put the copy here; Esc drops it"), PointerShape::kMoveNode};
+    if (gesture == Gesture::kStroke)
+      return {tr("let go to end the pillar; Esc drops it"), PointerShape::kPen};
+    if (gesture == Gesture::kMoveItems)
+      return {tr("let go to move it here; Esc puts it back"), PointerShape::kMoveNode};
+    if (gesture == Gesture::kCopy)
+      return {tr("let go to put the copy here; Esc drops it"), PointerShape::kMoveNode};
     if (tool == Tool::kSelect) return select_hint();
-    if (document.read_only()) return {tr("read-only: somebody else writes this project"), PointerShape::kArrow};
+    if (document.read_only())
+      return {tr("read-only: somebody else writes this project"), PointerShape::kArrow};
     if (!at.on_section) return {tr("point at a section to pick"), PointerShape::kArrow};
     const Fault* under = fault_at(at.under);
     if (under != nullptr && under->record.locked && !is_of_another(at.under)) {
@@ -366,11 +383,14 @@ struct Picking::State {
   }
   std::pair<QString, PointerShape> select_hint() const {
     const Fault* under = fault_at(at.under);
-    if (under != nullptr) return {tr("click selects %1; Ctrl+click adds to the selection").arg(words_for(at.under)), PointerShape::kArrow};
+    if (under != nullptr)
+      return {tr("click selects %1; Ctrl+click adds to the selection").arg(words_for(at.under)),
+              PointerShape::kArrow};
     return {tr("drag a box to select, Shift+drag a lasso; P picks, M moves"), PointerShape::kArrow};
   }
   std::pair<QString, PointerShape> move_hint() const {
-    if (fault_at(at.under) == nullptr) return {tr("drag a node, a pillar or the selection to move it"), PointerShape::kArrow};
+    if (fault_at(at.under) == nullptr)
+      return {tr("drag a node, a pillar or the selection to move it"), PointerShape::kArrow};
     return {tr("drag moves %1").arg(words_for(at.under)), PointerShape::kMoveNode};
   }
   std::pair<QString, PointerShape> pick_hint() const {
@@ -378,10 +398,12 @@ struct Picking::State {
     if (copies) return {tr("drag a pillar to copy it"), PointerShape::kMoveNode};
     const bool another = is_of_another(at.under);
     if (at.under.kind == Item::Kind::kNode) {
-      if ((at.modifiers & Qt::ControlModifier) != 0) return {tr("click deletes this node"), PointerShape::kDeleteNode};
+      if ((at.modifiers & Qt::ControlModifier) != 0)
+        return {tr("click deletes this node"), PointerShape::kDeleteNode};
       if (!another) return {tr("drag moves this node; Ctrl+click deletes it"), PointerShape::kMoveNode};
     }
-    if (inserts_into(at)) return {tr("click inserts a node into %1").arg(words_for(at.under)), PointerShape::kAddNode};
+    if (inserts_into(at))
+      return {tr("click inserts a node into %1").arg(words_for(at.under)), PointerShape::kAddNode};
     if (at.under.kind == Item::Kind::kPillar && !another && (at.modifiers & Qt::ShiftModifier) == 0) {
       return {tr("click goes on with %1").arg(words_for(at.under)), PointerShape::kArrow};
     }
@@ -404,7 +426,8 @@ struct Picking::State {
       case Item::Kind::kNode:
         return tr("a node of %1").arg(name_of(*fault));
       case Item::Kind::kPillar: {
-        const auto place = std::ranges::find(fault->pillars, item.id, &survey::Pillar::id) - fault->pillars.begin();
+        const auto place =
+            std::ranges::find(fault->pillars, item.id, &survey::Pillar::id) - fault->pillars.begin();
         return tr("pillar %1 of %2").arg(place + 1).arg(name_of(*fault));
       }
       default:
@@ -487,15 +510,16 @@ bool Picking::move(const Pointer& pointer) {
       s.gesture = State::Gesture::kCopy;
     } else if ((on_node || s.tool == Tool::kMove) && s.grab(s.pressed)) {
       s.gesture = State::Gesture::kMoveItems;
-    } else if (s.tool == Tool::kPick && !on_node && !on_pillar && travel(s.pressed, pointer) > kStrokeTravel &&
-               pointer.time - s.pressed.time > kStrokeTime) {
+    } else if (s.tool == Tool::kPick && !on_node && !on_pillar &&
+               travel(s.pressed, pointer) > kStrokeTravel && pointer.time - s.pressed.time > kStrokeTime) {
       s.gesture = State::Gesture::kStroke;
       s.stroke = {s.pressed.place};
     }
   }
   if (s.gesture == State::Gesture::kMoveItems || s.gesture == State::Gesture::kCopy) {
     if (pointer.on_section && s.holds_what_is_there()) s.show_dragged(pointer);
-  } else if (s.gesture == State::Gesture::kStroke && pointer.on_section && pointer.section == s.pressed.section) {
+  } else if (s.gesture == State::Gesture::kStroke && pointer.on_section &&
+             pointer.section == s.pressed.section) {
     s.stroke.push_back(pointer.place);
     Q_EMIT stroke_changed();
   }

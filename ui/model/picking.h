@@ -1,9 +1,11 @@
-// Gestures: what a press, drag or key over a view does to pillars. One state machine for sections and scene; views say
-// where the mouse is in the survey and what lies under it, and show hint(), cursor() and the provisional pillars.
+// Gestures: what a press, drag or key over a view does to pillars. One state machine for sections and scene;
+// views say where the mouse is in the survey and what lies under it, and show hint(), cursor() and the
+// provisional pillars.
 //
-// The set is OpendTect's without its conflicts: click adds a node, double-click or Enter ends the pillar, Shift+click
-// starts a new one, Ctrl+click deletes a node, a drag moves a node, a drag on empty ground (more than 5 px, longer than
-// 200 ms) draws a pillar free-hand, ` + drag makes a copy, Esc leaves with nothing changed, Space held navigates.
+// The set is OpendTect's without its conflicts: click adds a node, double-click or Enter ends the pillar,
+// Shift+click starts a new one, Ctrl+click deletes a node, a drag moves a node, a drag on empty ground (more
+// than 5 px, longer than 200 ms) draws a pillar free-hand, ` + drag makes a copy, Esc leaves with nothing
+// changed, Space held navigates.
 #pragma once
 #include <QObject>
 #include <QString>
@@ -24,12 +26,12 @@ enum class PointerShape { kArrow, kCross, kMoveNode, kAddNode, kDeleteNode, kPen
 
 // Where a view's mouse is.
 struct Pointer {
-  double x = 0, y = 0;      // pixels of the view
-  survey::IndexPoint place; // on the section, or the plane of the scene under the mouse; index space
-  Section section;          // that plane
-  bool on_section = false;  // false: over nothing that can be picked on
-  Item under;               // node, pillar, face or nothing, within the view's catch radius
-  int segment = -1;         // of a pillar under the mouse: the segment (its first node's number)
+  double x = 0, y = 0;       // pixels of the view
+  survey::IndexPoint place;  // on the section, or the plane of the scene under the mouse; index space
+  Section section;           // that plane
+  bool on_section = false;   // false: over nothing that can be picked on
+  Item under;                // node, pillar, face or nothing, within the view's catch radius
+  int segment = -1;          // of a pillar under the mouse: the segment (its first node's number)
   Qt::KeyboardModifiers modifiers;
   Qt::MouseButton button = Qt::NoButton;  // of a press or release
   std::chrono::milliseconds time{0};      // of the event

@@ -17,7 +17,8 @@ QByteArray unpacked(const std::string& bytes, qsizetype size) {
   framed.append(bytes.data(), static_cast<qsizetype>(bytes.size()));
   QByteArray plain = qUncompress(framed);
   if (plain.size() == size) return plain;
-  throw Error(ErrorCode::kFormat, "the engine sent a tile that cannot be unpacked", "are engine and editor of one version?");
+  throw Error(ErrorCode::kFormat, "the engine sent a tile that cannot be unpacked",
+              "are engine and editor of one version?");
 }
 
 v1::RenderRequest message_of(const PictureRequest& wanted, const std::vector<std::string>& volumes) {
@@ -37,7 +38,8 @@ v1::RenderRequest message_of(const PictureRequest& wanted, const std::vector<std
     drawn.set_volume(volumes[n]);
     drawn.set_value(one.value);
     drawn.set_colour(0xff000000U | static_cast<std::uint32_t>(qBlue(one.colour)) << 16 |
-                     static_cast<std::uint32_t>(qGreen(one.colour)) << 8 | static_cast<std::uint32_t>(qRed(one.colour)));
+                     static_cast<std::uint32_t>(qGreen(one.colour)) << 8 |
+                     static_cast<std::uint32_t>(qRed(one.colour)));
     drawn.mutable_placement()->mutable_linear()->Assign(one.linear.begin(), one.linear.end());
     drawn.mutable_placement()->mutable_shift()->Assign(one.shift.begin(), one.shift.end());
   }

@@ -1,5 +1,5 @@
-// Pictures of isosurfaces by the engine, on a thread and connection of their own: the newest request wins, and each pass
-// is handed on as it arrives.
+// Pictures of isosurfaces by the engine, on a thread and connection of their own: the newest request wins,
+// and each pass is handed on as it arrives.
 #pragma once
 #include <condition_variable>
 #include <cstdint>

@@ -39,8 +39,8 @@ std::vector<Pillar> moved_provisionally(std::vector<Pillar> pillars,
                                         const std::map<std::int64_t, WorldPoint>& moved) {
   std::map<std::int64_t, Displacement> displacements;
   for (const Pillar& pillar : pillars) {
-    const bool touched =
-        std::ranges::any_of(pillar.nodes, [&](const survey::PillarNode& node) { return moved.contains(node.id); });
+    const bool touched = std::ranges::any_of(
+        pillar.nodes, [&](const survey::PillarNode& node) { return moved.contains(node.id); });
     if (touched) displacements.emplace(pillar.id, Displacement(pillar, moved));
   }
   for (Pillar& pillar : pillars) {

@@ -31,7 +31,8 @@ QString title_of(const Section& section, const survey::Geometry& survey) {
     case Section::Kind::kCrossline:
       return QObject::tr("Crossline %1").arg(survey.crosslines.line_of(section.index));
     case Section::Kind::kSlice:
-      return (survey.domain == survey::Domain::kTime ? QObject::tr("Time slice %1") : QObject::tr("Depth slice %1"))
+      return (survey.domain == survey::Domain::kTime ? QObject::tr("Time slice %1")
+                                                     : QObject::tr("Depth slice %1"))
           .arg(z_text(survey, static_cast<double>(section.index)));
     case Section::Kind::kLine:
       break;

@@ -10,7 +10,7 @@ namespace footwall::ui {
 struct Section {
   enum class Kind : std::uint8_t { kInline, kCrossline, kSlice, kLine };
   Kind kind = Kind::kInline;
-  std::int64_t index = 0;         // inline, crossline or sample index from 0; of a line: unused
+  std::int64_t index = 0;           // inline, crossline or sample index from 0; of a line: unused
   survey::IndexPoint from{}, to{};  // of a line: its ends in index space; k unused
   friend bool operator==(const Section&, const Section&) = default;
 };
@@ -21,9 +21,9 @@ QString title_of(const Section& section, const survey::Geometry& survey);
 Section stepped(const Section& section, std::int64_t by, const survey::Geometry& survey);
 std::int64_t last_index(const Section& section, const survey::Geometry& survey);
 
-// The plane's own coordinates: u to the right and v down, both in voxels. Inline: u = crossline index, v = sample;
-// crossline: u = inline index, v = sample; slice: u = crossline index, v = inline index (a view may draw it
-// upwards); line: u = distance from `from` in voxels, v = sample.
+// The plane's own coordinates: u to the right and v down, both in voxels. Inline: u = crossline index, v =
+// sample; crossline: u = inline index, v = sample; slice: u = crossline index, v = inline index (a view may
+// draw it upwards); line: u = distance from `from` in voxels, v = sample.
 struct PlanePoint {
   double u = 0;
   double v = 0;

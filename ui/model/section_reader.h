@@ -10,8 +10,8 @@
 
 namespace footwall::ui {
 
-// One section of one volume: [row][column], v and u of section.h, NaN where null or outside the volume. A line's columns
-// are the nearest traces at whole u.
+// One section of one volume: [row][column], v and u of section.h, NaN where null or outside the volume. A
+// line's columns are the nearest traces at whole u.
 struct SectionSamples {
   Id volume = 0;
   Section section;
@@ -29,12 +29,14 @@ class SectionReader final : public QObject {
   // Waits for the read under way.
   ~SectionReader() override;
 
-  // At most one request of each asker waits: a newer one takes its place. Sections read lately answer from memory
-  // (at once, before this returns); neighbours in the direction of the last step are read ahead while nothing waits.
+  // At most one request of each asker waits: a newer one takes its place. Sections read lately answer from
+  // memory (at once, before this returns); neighbours in the direction of the last step are read ahead while
+  // nothing waits.
   void ask(QObject* asker, Id volume, const Section& section);
   // From memory, or null.
   std::shared_ptr<const SectionSamples> kept(Id volume, const Section& section) const;
-  // Clip values by percentile are the volume's own: percentile 0 to 100, nearest; |value| where signed_values.
+  // Clip values by percentile are the volume's own: percentile 0 to 100, nearest; |value| where
+  // signed_values.
   struct VolumeFacts {
     bool signed_values = true;
     std::vector<double> percentiles;  // 101

@@ -10,11 +10,23 @@ namespace footwall::ui {
 
 // One thing that can be pointed at.
 struct Item {
-  enum class Kind { kNone, kSurvey, kVolume, kFault, kPillar, kNode, kFace, kIsosurface, kSection, kRun, kView };
+  enum class Kind {
+    kNone,
+    kSurvey,
+    kVolume,
+    kFault,
+    kPillar,
+    kNode,
+    kFace,
+    kIsosurface,
+    kSection,
+    kRun,
+    kView
+  };
   Kind kind = Kind::kNone;
-  Id id = 0;        // of a face: the fault's
-  Id panel = 0;     // of a face
-  int number = 0;   // of a face, in its panel
+  Id id = 0;          // of a face: the fault's
+  Id panel = 0;       // of a face
+  int number = 0;     // of a face, in its panel
   QString name = {};  // of a view, which has no number
   explicit operator bool() const { return kind != Kind::kNone; }
   friend bool operator==(const Item&, const Item&) = default;

@@ -18,8 +18,7 @@ double distance_to_segment(const IndexPoint& p, const IndexPoint& a, const Index
   const double dk = b.k - a.k;
   const double square = di * di + dj * dj + dk * dk;
   if (square == 0) return distance(p, a);
-  const double part =
-      std::clamp(((p.i - a.i) * di + (p.j - a.j) * dj + (p.k - a.k) * dk) / square, 0.0, 1.0);
+  const double part = std::clamp(((p.i - a.i) * di + (p.j - a.j) * dj + (p.k - a.k) * dk) / square, 0.0, 1.0);
   return distance(p, {a.i + part * di, a.j + part * dj, a.k + part * dk});
 }
 

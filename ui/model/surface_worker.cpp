@@ -13,7 +13,8 @@
 namespace footwall::ui {
 namespace {
 
-void set_geometry(const survey::Geometry& survey, const std::optional<double>& velocity, FaultSurface& surface) {
+void set_geometry(const survey::Geometry& survey, const std::optional<double>& velocity,
+                  FaultSurface& surface) {
   using Geometry = extract::FaceGeometry;
   constexpr std::pair<const char*, double Geometry::*> kColumns[] = {
       {"area_voxels", &Geometry::area_voxels},
@@ -40,8 +41,9 @@ void sort_names(FaultSurface& surface) {
   if (std::ranges::is_sorted(surface.faces, is_before)) return;
   surface.by_name.resize(surface.faces.size());
   std::iota(surface.by_name.begin(), surface.by_name.end(), 0U);
-  std::ranges::sort(surface.by_name,
-                    [&](std::uint32_t a, std::uint32_t b) { return is_before(surface.faces[a], surface.faces[b]); });
+  std::ranges::sort(surface.by_name, [&](std::uint32_t a, std::uint32_t b) {
+    return is_before(surface.faces[a], surface.faces[b]);
+  });
 }
 
 tasks::TriangulateOptions options_of(const project::MeshRecord& mesh) {
@@ -77,14 +79,17 @@ std::size_t FaultSurface::place_of(Id panel, std::int32_t n, std::size_t guess) 
   if (guess < faces.size() && is_it(guess)) return guess;
   const project::MeshFace wanted{.panel = panel, .n = n, .vertices = {}};
   if (by_name.empty()) {
-    const auto found = static_cast<std::size_t>(std::ranges::lower_bound(faces, wanted, is_before) - faces.begin());
+    const auto found =
+        static_cast<std::size_t>(std::ranges::lower_bound(faces, wanted, is_before) - faces.begin());
     return found < faces.size() && is_it(found) ? found : faces.size();
   }
-  const auto found = std::ranges::lower_bound(by_name, wanted, is_before, [&](std::uint32_t f) { return faces[f]; });
+  const auto found =
+      std::ranges::lower_bound(by_name, wanted, is_before, [&](std::uint32_t f) { return faces[f]; });
   return found != by_name.end() && is_it(*found) ? *found : faces.size();
 }
 
-std::shared_ptr<const FaultSurface> surface_of(const survey::Geometry& survey, const project::FaultRecord& fault,
+std::shared_ptr<const FaultSurface> surface_of(const survey::Geometry& survey,
+                                               const project::FaultRecord& fault,
                                                const project::MeshRecord& mesh, bool provisional,
                                                const std::optional<double>& velocity) {
   auto surface = std::make_shared<FaultSurface>();
@@ -111,7 +116,10 @@ std::shared_ptr<const FaultSurface> surface_of(const survey::Geometry& survey, c
 
 SurfaceWorker::SurfaceWorker(project::Project project, survey::Geometry survey,
                              std::function<void(MadeSurface)> made)
-    : project_(std::move(project)), survey_(std::move(survey)), made_(std::move(made)), thread_([this] { work(); }) {}
+    : project_(std::move(project)),
+      survey_(std::move(survey)),
+      made_(std::move(made)),
+      thread_([this] { work(); }) {}
 
 SurfaceWorker::~SurfaceWorker() {
   job_.cancel();
@@ -158,17 +166,20 @@ project::MeshRecord SurfaceWorker::mesh_for(const SurfaceRequest& request, MadeS
   const Id fault = request.fault.id;
   std::optional<project::MeshRecord> former;
   if (request.stored || !request.options) former = project_.mesh(fault);
-  made.options = request.options ? *request.options : former ? options_of(*former) : tasks::TriangulateOptions{};
+  made.options = request.options ? *request.options
+                 : former        ? options_of(*former)
+                                 : tasks::TriangulateOptions{};
   made.chart = request.chart.empty() && former ? former->chart : request.chart;
   if (request.stored) made.run = last_run_of(project_, fault, request.volume);
-  if (request.stored && former && former->revision == request.fault.revision && !project_.mesh_is_stale(fault)) {
+  if (request.stored && former && former->revision == request.fault.revision &&
+      !project_.mesh_is_stale(fault)) {
     return std::move(*former);
   }
   std::vector<std::string> notes;
-  project::MeshRecord mesh =
-      request.pillars.empty()
-          ? tasks::mesh_of_fault(project_, request.fault, made.options, job_, &notes)
-          : tasks::mesh_of_pillars(survey_, request.fault, request.pillars, made.chart, made.options, job_, &notes);
+  project::MeshRecord mesh = request.pillars.empty()
+                                 ? tasks::mesh_of_fault(project_, request.fault, made.options, job_, &notes)
+                                 : tasks::mesh_of_pillars(survey_, request.fault, request.pillars, made.chart,
+                                                          made.options, job_, &notes);
   for (const std::string& note : notes) made.problem += (made.problem.empty() ? "" : "\n") + note;
   made.chart = mesh.chart;  // the one that served
   if (!request.provisional) keep(request, mesh, made);
@@ -183,7 +194,8 @@ void SurfaceWorker::keep(const SurfaceRequest& request, const project::MeshRecor
     project_.store_mesh(request.fault.id, mesh);
     made.kept = true;
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::kNotFound) made.problem = "its mesh could not be stored: " + error.message();
+    if (error.code() != ErrorCode::kNotFound)
+      made.problem = "its mesh could not be stored: " + error.message();
   }
 }
 

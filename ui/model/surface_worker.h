@@ -1,5 +1,5 @@
-// Triangulates, and reads and keeps meshes, on a thread and a connection to the project of its own. Of each fault only
-// the newest request is done.
+// Triangulates, and reads and keeps meshes, on a thread and a connection to the project of its own. Of each
+// fault only the newest request is done.
 #pragma once
 #include <condition_variable>
 #include <cstdint>
@@ -27,7 +27,8 @@ struct SurfaceRequest {
   std::optional<std::string> volume;  // checksum of the volume that a run's numbers must be of; none: of any
   bool provisional = false;
   bool urgent = false;  // before those that are not
-  bool stored = false;  // the mesh of the project will do where it is fresh, with what the last run of the volume says of its faces
+  bool stored = false;  // the mesh of the project will do where it is fresh, with what the last run of the
+                        // volume says of its faces
 };
 
 struct MadeSurface {
@@ -42,7 +43,8 @@ struct MadeSurface {
 };
 
 // Vertices and faces of a stored mesh, as views want them.
-std::shared_ptr<const FaultSurface> surface_of(const survey::Geometry& survey, const project::FaultRecord& fault,
+std::shared_ptr<const FaultSurface> surface_of(const survey::Geometry& survey,
+                                               const project::FaultRecord& fault,
                                                const project::MeshRecord& mesh, bool provisional,
                                                const std::optional<double>& velocity);
 

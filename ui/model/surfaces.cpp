@@ -46,11 +46,11 @@ struct Surfaces::State {
     QString problem;
     FaceValues values;
     std::optional<pillars::Options> options;  // none: not known yet, those of its stored mesh
-    project::Bytes chart;        // of its last mesh
-    std::uint64_t asked = 0;     // the newest triangulation asked for; 0: none yet
-    std::uint64_t made = 0;      // the newest that came
-    bool wants_run = false;      // the last run's numbers are to be taken
-    std::uint64_t edit = 0;      // under which the engine has its surface; 0: it has not
+    project::Bytes chart;                     // of its last mesh
+    std::uint64_t asked = 0;                  // the newest triangulation asked for; 0: none yet
+    std::uint64_t made = 0;                   // the newest that came
+    bool wants_run = false;                   // the last run's numbers are to be taken
+    std::uint64_t edit = 0;                   // under which the engine has its surface; 0: it has not
     std::map<QString, std::shared_ptr<const FaceNumbers>> numbers;  // made when asked for
   };
 
@@ -74,11 +74,13 @@ struct Surfaces::State {
   void start_worker() {
     worker.reset();
     if (!document.survey()) return;
-    worker = std::make_unique<SurfaceWorker>(document.project().beside(), *document.survey(), [this](MadeSurface made) {
-      // The worker ends before this object does, and the receiver takes its waiting events along.
-      QMetaObject::invokeMethod(
-          &self, [this, made = std::move(made)]() mutable { take(std::move(made)); }, Qt::QueuedConnection);
-    });
+    worker = std::make_unique<SurfaceWorker>(
+        document.project().beside(), *document.survey(), [this](MadeSurface made) {
+          // The worker ends before this object does, and the receiver takes its waiting events along.
+          QMetaObject::invokeMethod(
+              &self, [this, made = std::move(made)]() mutable { take(std::move(made)); },
+              Qt::QueuedConnection);
+        });
   }
 
   // ---- surfaces ----
@@ -100,7 +102,8 @@ struct Surfaces::State {
     request.number = entry.asked = ++last_request;
     request.fault = fault.record;
     request.pillars = pillars;
-    // A frame found from the first picks would stay with the fault for good: it is settled by the fourth pillar.
+    // A frame found from the first picks would stay with the fault for good: it is settled by the fourth
+    // pillar.
     constexpr std::size_t kSettled = 4;
     request.chart = fault.record.chart;
     if (request.chart.empty() && pillars.size() >= kSettled) request.chart = entry.chart;
@@ -139,17 +142,21 @@ struct Surfaces::State {
     entry.made = made.number;
     entry.problem = QString::fromStdString(made.problem);
     if (!entry.options) entry.options = pillar_options(made.options);
-    if (made.surface != nullptr && (entry.chart.empty() || !made.surface->provisional)) entry.chart = made.chart;
+    if (made.surface != nullptr && (entry.chart.empty() || !made.surface->provisional))
+      entry.chart = made.chart;
     if (made.kept) Q_EMIT document.meshes_changed({made.fault});
     // While a hand is on it, the last surface stays where the pillars cannot make one for a moment.
     const bool keeps_last = made.surface == nullptr && document.is_provisional(made.fault);
     if (!keeps_last) set_surface(entry, made.surface);
-    if (made.run && entry.surface != nullptr && std::exchange(entry.wants_run, false)) take_run(*made.run, entry);
+    if (made.run && entry.surface != nullptr && std::exchange(entry.wants_run, false))
+      take_run(*made.run, entry);
     Q_EMIT self.surfaces_changed({made.fault});
   }
 
   void set_surface(Entry& entry, std::shared_ptr<const FaultSurface> surface) {
-    const Id fault = surface != nullptr ? surface->fault : entry.surface != nullptr ? entry.surface->fault : 0;
+    const Id fault = surface != nullptr         ? surface->fault
+                     : entry.surface != nullptr ? entry.surface->fault
+                                                : 0;
     const bool turned =
         surface != nullptr && entry.surface != nullptr && surface->side != entry.surface->side;
     entry.surface = std::move(surface);
@@ -186,7 +193,8 @@ struct Surfaces::State {
       const auto found = entries.find(fault);
       const auto known = answer.known.find(fault);
       if (found == entries.end() || known == answer.known.end()) continue;
-      found->second.values.take(answer.panels, answer.face_numbers, answer.statistics, of_fault, known->second);
+      found->second.values.take(answer.panels, answer.face_numbers, answer.statistics, of_fault,
+                                known->second);
     }
     for (const Id fault : changed) {
       const auto found = entries.find(fault);
@@ -205,7 +213,8 @@ struct Surfaces::State {
   }
 
   bool document_is_provisional() const {
-    return std::ranges::any_of(entries, [this](const auto& entry) { return document.is_provisional(entry.first); });
+    return std::ranges::any_of(entries,
+                               [this](const auto& entry) { return document.is_provisional(entry.first); });
   }
 
   // ---- what the document says ----
@@ -247,7 +256,7 @@ struct Surfaces::State {
       const auto found = entries.find(fault.record.id);
       if (found == entries.end() || found->second.surface == nullptr) continue;
       Entry& entry = found->second;
-      if (entry.values.is_known("count") && !entry.values.any_stale()) continue;
+      if (entry.values.is_known("count") && !entry.values.any_stale("count")) continue;
       entry.wants_run = true;
       ask(fault, entry, false, true);
     }
@@ -285,7 +294,8 @@ Surfaces::Surfaces(Document& document, EngineLink* engine, QObject* parent)
   connect(&document, &Document::survey_changed, this, [this] { state_->survey_changed(); });
   connect(&document, &Document::runs_changed, this, [this] { state_->runs_changed(); });
   if (engine != nullptr) {
-    connect(engine, &EngineLink::numbers, this, [this](const EngineNumbers& answer) { state_->take_answer(answer); });
+    connect(engine, &EngineLink::numbers, this,
+            [this](const EngineNumbers& answer) { state_->take_answer(answer); });
     connect(engine, &EngineLink::state_changed, this, [this] { Q_EMIT numbers_changed({}); });
     connect(engine, &EngineLink::volume_changed, this, [this] { state_->volume_changed(); });
   }
@@ -326,8 +336,9 @@ Freshness Surfaces::freshness(Id fault, const QString& statistic) const {
                        (state_->engine != nullptr && entry.edit > state_->engine->answered());
   const bool any_stale = entry.values.any_stale(statistic.toStdString());
   if (!any_stale && !state_->document.is_provisional(fault)) return Freshness::kFresh;
-  const bool engine_runs = state_->engine != nullptr && (state_->engine->state() == EngineLink::State::kReady ||
-                                                         state_->engine->state() == EngineLink::State::kBusy);
+  const bool engine_runs =
+      state_->engine != nullptr && (state_->engine->state() == EngineLink::State::kReady ||
+                                    state_->engine->state() == EngineLink::State::kBusy);
   return (follows || comes_late(statistic)) && engine_runs ? Freshness::kFollowing : Freshness::kStale;
 }
 
@@ -335,7 +346,8 @@ const std::vector<project::StatisticRecord>& Surfaces::statistics() const {
   return state_->statistics;
 }
 
-std::optional<std::pair<double, double>> Surfaces::range(const std::set<Id>& faults, const QString& statistic) const {
+std::optional<std::pair<double, double>> Surfaces::range(const std::set<Id>& faults,
+                                                         const QString& statistic) const {
   auto& kept = state_->kept_range;
   if (kept && kept->faults == faults && kept->statistic == statistic) return kept->range;
   std::vector<double> values;
@@ -359,7 +371,8 @@ std::optional<std::pair<double, double>> Surfaces::range(const std::set<Id>& fau
 
 pillars::Options Surfaces::options(Id fault) const {
   const auto found = state_->entries.find(fault);
-  return found == state_->entries.end() ? pillars::Options{} : found->second.options.value_or(pillars::Options{});
+  return found == state_->entries.end() ? pillars::Options{}
+                                        : found->second.options.value_or(pillars::Options{});
 }
 
 void Surfaces::set_options(Id id, const pillars::Options& options) {
@@ -371,7 +384,8 @@ void Surfaces::set_options(Id id, const pillars::Options& options) {
 }
 
 bool Surfaces::is_settled() const {
-  const bool engine_answers = state_->engine != nullptr && state_->engine->state() != EngineLink::State::kOff &&
+  const bool engine_answers = state_->engine != nullptr &&
+                              state_->engine->state() != EngineLink::State::kOff &&
                               state_->engine->state() != EngineLink::State::kLost;
   return std::ranges::all_of(state_->entries, [&](const auto& entry) {
     const bool answered = !engine_answers || entry.second.edit <= state_->engine->answered();
@@ -406,7 +420,8 @@ std::optional<LiveRun> Surfaces::live_run() const {
     }
     for (const project::StatisticRecord& statistic : state_->statistics) {
       const std::vector<double>* values = entry.values.find(statistic.name);
-      if (values != nullptr && !entry.values.any_stale(statistic.name)) one.statistics[statistic.name] = *values;
+      if (values != nullptr && !entry.values.any_stale(statistic.name))
+        one.statistics[statistic.name] = *values;
     }
   }
   return live.faults.empty() ? std::nullopt : std::optional(std::move(live));

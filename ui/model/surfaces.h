@@ -1,6 +1,6 @@
-// The triangle surface and colours of every fault, kept in step with the pillars: while a node is dragged as well as
-// after an edit. Triangulates on a thread of its own; colours come from the engine (engine_link.h) or from the runs of the
-// project.
+// The triangle surface and colours of every fault, kept in step with the pillars: while a node is dragged as
+// well as after an edit. Triangulates on a thread of its own; colours come from the engine (engine_link.h) or
+// from the runs of the project.
 #pragma once
 #include <QObject>
 #include <array>
@@ -17,8 +17,8 @@
 
 namespace footwall::ui {
 
-// One triangulation, never changed after it was made. Vertices and faces go together: faces[f].vertices are numbers of
-// vertices, lattice[f] the same corners as the engine has them.
+// One triangulation, never changed after it was made. Vertices and faces go together: faces[f].vertices are
+// numbers of vertices, lattice[f] the same corners as the engine has them.
 struct FaultSurface {
   Id fault = 0;
   std::int64_t revision = 0;  // FaultRecord::revision of its pillars
@@ -42,9 +42,9 @@ enum class Freshness { kFresh, kFollowing, kStale, kPlain };
 
 // A statistic of the faces of one surface, in its order.
 struct FaceNumbers {
-  std::vector<double> values;        // NaN: undefined, or not known yet
-  std::vector<std::uint8_t> stale;   // 1: the value is that of the face before it moved
-  std::vector<std::uint8_t> hatched; // 1: under 30 samples, left out of rankings
+  std::vector<double> values;         // NaN: undefined, or not known yet
+  std::vector<std::uint8_t> stale;    // 1: the value is that of the face before it moved
+  std::vector<std::uint8_t> hatched;  // 1: under 30 samples, left out of rankings
 };
 
 // Whether the engine tells this statistic (an offset) only when nothing else is to be done.
@@ -86,7 +86,8 @@ class Surfaces final : public QObject {
   // Nothing is being triangulated, and no answer of the engine is awaited. Offsets are not waited for: they
   // take long, and come fault by fault while nothing else is to be done.
   bool is_settled() const;
-  // What is known now of the engine's volume, of those faults that are wholly fresh; nothing where nothing is known.
+  // What is known now of the engine's volume, of those faults that are wholly fresh; nothing where nothing is
+  // known.
   std::optional<LiveRun> live_run() const;
   // Keeps it in the document's project, at once. Throws what the project refuses.
   void store_live_run();

@@ -19,7 +19,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr const char* kWatch = "update-all";
-constexpr auto kLook = 100ms;  // how soon a cancel is seen
+constexpr auto kLook = 100ms;                   // how soon a cancel is seen
 constexpr const char* kStatistic = "variance";  // one that needs the voxels: the others come with it
 
 // What the window's thread tells the job's.
@@ -41,9 +41,10 @@ class Watch final : public QObject {
     connect(&workbench.surfaces, &Surfaces::surfaces_changed, this, [this] { look(); });
     connect(&workbench.surfaces, &Surfaces::numbers_changed, this, [this] { look(); });
     connect(&workbench.engine, &EngineLink::state_changed, this, [this] { look_at_engine(); });
-    connect(&workbench.engine, &EngineLink::failed, this, [this](const QString& message, const QString& hint) {
-      fail({ErrorCode::kEngine, message.toStdString(), hint.toStdString()});
-    });
+    connect(&workbench.engine, &EngineLink::failed, this,
+            [this](const QString& message, const QString& hint) {
+              fail({ErrorCode::kEngine, message.toStdString(), hint.toStdString()});
+            });
     connect(&workbench.jobs, &Jobs::finished, this, [this](int job) {
       if (job != number) return;
       setObjectName(QString());  // the next "Update all" is another
@@ -58,8 +59,9 @@ class Watch final : public QObject {
       const auto surface = surfaces.surface(fault.record.id);
       if (surface == nullptr) continue;
       faces += surface->faces.size();
-      const bool is_fresh = surface->faces.empty() ||
-                            surfaces.freshness(fault.record.id, QLatin1String(kStatistic)) == Freshness::kFresh;
+      const bool is_fresh =
+          surface->faces.empty() ||
+          surfaces.freshness(fault.record.id, QLatin1String(kStatistic)) == Freshness::kFresh;
       if (is_fresh) fresh += surface->faces.size();
     }
     const bool all = surfaces.is_settled() && fresh == faces;
@@ -125,7 +127,8 @@ LiveRun wait_for_all(Told& told, const JobContext& job) {
 }  // namespace
 
 int start_update(Workbench& workbench) {
-  if (const QObject* running = workbench.surfaces.findChild<QObject*>(QLatin1String(kWatch), Qt::FindDirectChildrenOnly))
+  if (const QObject* running =
+          workbench.surfaces.findChild<QObject*>(QLatin1String(kWatch), Qt::FindDirectChildrenOnly))
     return static_cast<const Watch*>(running)->number;
   workbench.engine.start();
   workbench.engine.set_volume(workbench.display.volume());

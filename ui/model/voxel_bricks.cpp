@@ -12,7 +12,8 @@ namespace {
 using survey::IndexPoint;
 
 constexpr float kNull = std::numeric_limits<float>::quiet_NaN();
-// Samples by which a brick is taken for one that the surface passes through: the graphics card counts in floats.
+// Samples by which a brick is taken for one that the surface passes through: the graphics card counts in
+// floats.
 constexpr double kNear = 0.02;
 
 double axis(const IndexPoint& p, int n) {
@@ -27,7 +28,8 @@ class Passing {
  public:
   Passing(const survey::Index& sampled, const survey::Index& bricks) : sampled_(sampled), bricks_(bricks) {}
 
-  // Corners in samples of the bricks' step. A triangle that spans several bricks is halved at its longest edge.
+  // Corners in samples of the bricks' step. A triangle that spans several bricks is halved at its longest
+  // edge.
   void add(const IndexPoint& a, const IndexPoint& b, const IndexPoint& c) {
     std::array<std::int64_t, 3> lo{}, hi{};
     bool small = true;
@@ -103,7 +105,8 @@ void make_table(VoxelBricks& bricks, const std::vector<std::uint32_t>& keys) {
 // The first and last sample of a brick, as the volume counts them, cut at its end.
 survey::Box box_of(const VoxelBricks& bricks, std::uint32_t key) {
   const survey::Index counts = bricks.bricks();
-  const std::array<std::int64_t, 3> place{key / (counts[1] * counts[2]), key / counts[2] % counts[1], key % counts[2]};
+  const std::array<std::int64_t, 3> place{key / (counts[1] * counts[2]), key / counts[2] % counts[1],
+                                          key % counts[2]};
   survey::Box box;
   for (int n = 0; n < 3; ++n) {
     box.lo[n] = place[static_cast<std::size_t>(n)] * VoxelBricks::kCells * bricks.step;
@@ -127,10 +130,12 @@ void copy_part(const VoxelBricks& bricks, const survey::Box& brick, const survey
     for (std::int64_t j = first[1]; j <= last[1]; ++j) {
       // Of the brick's own first sample in this row, which may lie before the chunk.
       const std::int64_t row =
-          ((brick.lo[0] + i * step - chunk.lo[0]) * chunk.size(1) + brick.lo[1] + j * step - chunk.lo[1]) * chunk.size(2) +
+          ((brick.lo[0] + i * step - chunk.lo[0]) * chunk.size(1) + brick.lo[1] + j * step - chunk.lo[1]) *
+              chunk.size(2) +
           brick.lo[2] - chunk.lo[2];
       float* to = out + (i * VoxelBricks::kSide + j) * VoxelBricks::kSide;
-      for (std::int64_t k = first[2]; k <= last[2]; ++k) to[k] = values[static_cast<std::size_t>(row + k * step)];
+      for (std::int64_t k = first[2]; k <= last[2]; ++k)
+        to[k] = values[static_cast<std::size_t>(row + k * step)];
     }
   }
 }
@@ -199,16 +204,23 @@ std::vector<std::uint32_t> passed_bricks(const FaultSurface& surface, const surv
       constexpr double kFar = 1e7;  // halving to bricks must end
       return std::abs(p.i) < kFar && std::abs(p.j) < kFar && std::abs(p.k) < kFar;
     };
-    if (finite(corner(0)) && finite(corner(1)) && finite(corner(2))) passing.add(corner(0), corner(1), corner(2));
+    if (finite(corner(0)) && finite(corner(1)) && finite(corner(2)))
+      passing.add(corner(0), corner(1), corner(2));
   }
   return passing.keys();
 }
 
-std::optional<VoxelBricks> read_bricks(const volume::VolumeReader& reader, Id volume, const survey::Index& origin,
-                                       const survey::Geometry& survey, const FaultSurface& surface, std::size_t most,
+std::optional<VoxelBricks> read_bricks(const volume::VolumeReader& reader, Id volume,
+                                       const survey::Index& origin, const survey::Geometry& survey,
+                                       const FaultSurface& surface, std::size_t most,
                                        const VoxelBricks* known, const std::function<bool()>& stop) {
-  VoxelBricks bricks{
-      .volume = volume, .step = 1, .origin = origin, .size = reader.info().dims, .table = {}, .longest = 0, .samples = {}};
+  VoxelBricks bricks{.volume = volume,
+                     .step = 1,
+                     .origin = origin,
+                     .size = reader.info().dims,
+                     .table = {},
+                     .longest = 0,
+                     .samples = {}};
   std::vector<std::uint32_t> keys = passed_bricks(surface, survey, bricks);
   // From some step on a volume is one brick.
   while (keys.size() > std::max<std::size_t>(most, 1)) {

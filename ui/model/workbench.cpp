@@ -14,7 +14,8 @@ namespace {
 constexpr auto kStoreAfter = std::chrono::milliseconds(1000);
 constexpr const char* kDisplaySetting = "studio.display";
 
-// Heights are drawn so that the survey is a third as high as it is wide, in whole steps; true where it is already.
+// Heights are drawn so that the survey is a third as high as it is wide, in whole steps; true where it is
+// already.
 double fitting_exaggeration(const survey::Geometry& survey) {
   const auto corner = [&](double i, double j) { return survey.world_of({i, j, 0}); };
   const survey::Index dims = survey.dims();
@@ -22,7 +23,8 @@ double fitting_exaggeration(const survey::Geometry& survey) {
   const survey::WorldPoint b = corner(static_cast<double>(dims[0] - 1), static_cast<double>(dims[1] - 1));
   const double width = survey.horizontal_metres(std::hypot(b.x - a.x, b.y - a.y));
   constexpr double kVelocity = 2000;  // m/s: a millisecond is a metre, as in the scene without a velocity
-  const double height = std::abs(survey.vertical_metres(static_cast<double>(dims[2]) * survey.interval, kVelocity));
+  const double height =
+      std::abs(survey.vertical_metres(static_cast<double>(dims[2]) * survey.interval, kVelocity));
   if (!(width > 0) || !(height > 0)) return 1;
   return std::clamp(std::round(width / (3 * height)), 1.0, 20.0);
 }
@@ -81,8 +83,8 @@ void Workbench::store_display() {
   }
 }
 
-std::unique_ptr<Workbench> open_workbench(const std::filesystem::path& path, const EngineLink::Options& engine,
-                                          QString* held) {
+std::unique_ptr<Workbench> open_workbench(const std::filesystem::path& path,
+                                          const EngineLink::Options& engine, QString* held) {
   held->clear();
   std::unique_ptr<EditSocket> edits;
   project::OpenOptions options;

@@ -41,7 +41,7 @@ struct Workbench {
 
 // A project by path. For writing; where somebody else writes it, for reading, and
 // `held` then says who (empty otherwise). Throws Error.
-std::unique_ptr<Workbench> open_workbench(const std::filesystem::path& path, const EngineLink::Options& engine,
-                                          QString* held);
+std::unique_ptr<Workbench> open_workbench(const std::filesystem::path& path,
+                                          const EngineLink::Options& engine, QString* held);
 
 }  // namespace footwall::ui

@@ -76,7 +76,8 @@ GLint GlProgram::place_for(Gl& gl, const char* uniform, std::span<const std::byt
     found->second.place = gl.glGetUniformLocation(name_, uniform);
   }
   Uniform& known = found->second;
-  if (known.size == value.size() && std::ranges::equal(value, std::span(known.value).first(value.size()))) return -1;
+  if (known.size == value.size() && std::ranges::equal(value, std::span(known.value).first(value.size())))
+    return -1;
   known.size = value.size();
   std::ranges::copy(value, known.value.begin());
   return known.place;

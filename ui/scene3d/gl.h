@@ -52,8 +52,8 @@ class GlProgram {
     std::size_t size = 0;  // of the value last set, in bytes
     std::array<std::byte, sizeof(float) * 16> value{};
   };
-  // Where the value goes; negative where it is there already, or the program has no such uniform. Setting one anew makes
-  // the driver prepare its constants again, and most are the same from draw to draw.
+  // Where the value goes; negative where it is there already, or the program has no such uniform. Setting one
+  // anew makes the driver prepare its constants again, and most are the same from draw to draw.
   GLint place_for(Gl& gl, const char* uniform, std::span<const std::byte> value);
   GLuint name_ = 0;
   std::map<std::string, Uniform, std::less<>> uniforms_;

@@ -18,7 +18,8 @@ namespace {
 using render::Vec3;
 
 constexpr std::int64_t kBrick = 8;  // cells
-// Cells that are looked at in one go: even noise makes no more than some hundred megabytes of them before they are counted.
+// Cells that are looked at in one go: even noise makes no more than some hundred megabytes of them before
+// they are counted.
 constexpr std::int64_t kCellsAtOnce = std::int64_t{1} << 21;
 
 int threads_to_use() {
@@ -43,7 +44,8 @@ void append(const isosurface::Surface& part, const VolumePlace& place, Isosurfac
                                  c * static_cast<double>(p.k));
   }
   for (const isosurface::Point& n : part.normals.all()) {
-    shape.normals.push_back(packed(across[0] * static_cast<double>(n.i) + across[1] * static_cast<double>(n.j) +
+    shape.normals.push_back(packed(across[0] * static_cast<double>(n.i) +
+                                   across[1] * static_cast<double>(n.j) +
                                    across[2] * static_cast<double>(n.k)));
   }
   for (const isosurface::Triangle& triangle : part.triangles.all()) {
@@ -55,9 +57,10 @@ void append(const isosurface::Surface& part, const VolumePlace& place, Isosurfac
 
 bool is_same(const IsosurfaceRequest& a, const IsosurfaceRequest& b) {
   const auto alike = [](const Vec3& p, const Vec3& q) { return p.x == q.x && p.y == q.y && p.z == q.z; };
-  return a.isosurface == b.isosurface && a.volume == b.volume && a.path == b.path && a.checksum == b.checksum &&
-         a.value == b.value && alike(a.place.zero, b.place.zero) && alike(a.place.steps[0], b.place.steps[0]) &&
-         alike(a.place.steps[1], b.place.steps[1]) && alike(a.place.steps[2], b.place.steps[2]);
+  return a.isosurface == b.isosurface && a.volume == b.volume && a.path == b.path &&
+         a.checksum == b.checksum && a.value == b.value && alike(a.place.zero, b.place.zero) &&
+         alike(a.place.steps[0], b.place.steps[0]) && alike(a.place.steps[1], b.place.steps[1]) &&
+         alike(a.place.steps[2], b.place.steps[2]);
 }
 
 // An opened volume and the slab of its inlines that was read last.
@@ -66,7 +69,8 @@ class IsosurfaceMaker::Volume {
   explicit Volume(const IsosurfaceRequest& request)
       : path_(request.path), checksum_(request.checksum), reader_(request.path), ranges_(reader_.min_max(0)) {
     if (!checksum_.empty() && to_hex(reader_.info().checksum) != checksum_) {
-      throw Error(ErrorCode::kCorrupt, path_.string() + " is not the file that the project knows as " + request.name,
+      throw Error(ErrorCode::kCorrupt,
+                  path_.string() + " is not the file that the project knows as " + request.name,
                   "bring the right file back, or point the project to it with relink");
     }
   }
@@ -79,7 +83,8 @@ class IsosurfaceMaker::Volume {
   // Whether the value can occur in cells of inlines [first, end).
   bool may_cross(std::int64_t first, std::int64_t end, float value) const {
     for (std::int64_t a = first / kBrick; a * kBrick < end && a < ranges_.dims[0]; ++a) {
-      for (std::int64_t n = ranges_.at(a, 0, 0); n < static_cast<std::int64_t>(ranges_.at(a + 1, 0, 0)); ++n) {
+      for (std::int64_t n = ranges_.at(a, 0, 0); n < static_cast<std::int64_t>(ranges_.at(a + 1, 0, 0));
+           ++n) {
         const auto at = static_cast<std::size_t>(n);
         if (ranges_.min[at] < value && ranges_.max[at] >= value) return true;
       }
@@ -142,7 +147,8 @@ std::set<Id> IsosurfaceMaker::want(std::vector<IsosurfaceRequest> requests) {
     for (IsosurfaceRequest& request : requests) {
       const Id id = request.isosurface;
       const auto known = wanted_.find(id);
-      const bool is_done = known != wanted_.end() && is_same(known->second.request, request) && known->second.is_done;
+      const bool is_done =
+          known != wanted_.end() && is_same(known->second.request, request) && known->second.is_done;
       if (!is_done) awaited.insert(id);
       now[id] = {std::move(request), is_done};
     }
@@ -163,7 +169,8 @@ void IsosurfaceMaker::work() {
     return std::ranges::find_if(wanted_, [](const auto& entry) { return !entry.second.is_done; });
   };
   for (;;) {
-    wake_.wait(lock, [&] { return ends_ || next() != wanted_.end() || (wanted_.empty() && volume_ != nullptr); });
+    wake_.wait(lock,
+               [&] { return ends_ || next() != wanted_.end() || (wanted_.empty() && volume_ != nullptr); });
     if (ends_) return;
     if (next() == wanted_.end()) {
       volume_.reset();  // its samples are of no use any more
@@ -202,7 +209,8 @@ void IsosurfaceMaker::work() {
   }
 }
 
-std::shared_ptr<const IsosurfaceShape> IsosurfaceMaker::make(const IsosurfaceRequest& request, const JobContext& job) {
+std::shared_ptr<const IsosurfaceShape> IsosurfaceMaker::make(const IsosurfaceRequest& request,
+                                                             const JobContext& job) {
   if (volume_ == nullptr || !volume_->is_of(request)) {
     volume_.reset();
     volume_ = std::make_unique<Volume>(request);
@@ -215,11 +223,13 @@ std::shared_ptr<const IsosurfaceShape> IsosurfaceMaker::make(const IsosurfaceReq
   shape->value = request.value;
   // 1. Slabs of inlines, each with a sample more at either side for the gradients.
   const std::int64_t plane = n[1] * n[2];
-  const std::int64_t planes = std::max<std::int64_t>(4, most_sample_bytes_ / (4 * std::max<std::int64_t>(1, plane)));
+  const std::int64_t planes =
+      std::max<std::int64_t>(4, most_sample_bytes_ / (4 * std::max<std::int64_t>(1, plane)));
   const bool whole = planes >= n[0];
   const std::int64_t cells = n[0] - 1;
   const std::int64_t slab = whole ? cells : std::max<std::int64_t>(1, (planes - 3) / kBrick * kBrick);
-  const std::int64_t at_once = std::max<std::int64_t>(kBrick, kCellsAtOnce / std::max<std::int64_t>(1, plane) / kBrick * kBrick);
+  const std::int64_t at_once =
+      std::max<std::int64_t>(kBrick, kCellsAtOnce / std::max<std::int64_t>(1, plane) / kBrick * kBrick);
   isosurface::ExtractOptions options;
   options.threads = threads_to_use();
   options.bricks = &bricks;
@@ -230,14 +240,16 @@ std::shared_ptr<const IsosurfaceShape> IsosurfaceMaker::make(const IsosurfaceReq
       job.report(0.8 * static_cast<double>(i) / static_cast<double>(cells), "extract");
       const std::int64_t to = std::min(end, i + at_once);
       if (!volume_->may_cross(i, to, value)) continue;
-      const isosurface::Field field = whole ? volume_->slab(0, n[0], job)
-                                            : volume_->slab(std::max<std::int64_t>(0, first - 1), std::min(n[0], end + 2), job);
+      const isosurface::Field field =
+          whole ? volume_->slab(0, n[0], job)
+                : volume_->slab(std::max<std::int64_t>(0, first - 1), std::min(n[0], end + 2), job);
       options.cells = survey::Box{{i, 0, 0}, {to, n[1] - 1, n[2] - 1}};
       isosurface::extract(field, value, options, part);
       if (shape->triangles() + part.triangles.size() > most_triangles_) {
-        throw Error(ErrorCode::kInvalid,
-                    fmt::format("{} = {:g} has more than {} triangles", request.name, request.value, most_triangles_),
-                    "show it as a picture by the engine, or choose another value");
+        throw Error(
+            ErrorCode::kInvalid,
+            fmt::format("{} = {:g} has more than {} triangles", request.name, request.value, most_triangles_),
+            "show it as a picture by the engine, or choose another value");
       }
       append(part, request.place, *shape);
     }

@@ -1,5 +1,5 @@
-// Isosurfaces as triangles for the scene, made from the volume's file on a thread of their own by the engine's marching
-// cubes.
+// Isosurfaces as triangles for the scene, made from the volume's file on a thread of their own by the
+// engine's marching cubes.
 #pragma once
 #include <array>
 #include <condition_variable>
@@ -46,7 +46,7 @@ struct IsosurfaceShape {
 
   Id isosurface = 0;
   double value = 0;
-  std::vector<render::Vec3f> positions;  // scene metres at exaggeration 1
+  std::vector<render::Vec3f> positions;             // scene metres at exaggeration 1
   std::vector<std::array<std::int8_t, 4>> normals;  // -127 to 127, to lower values; the fourth is 0
   std::vector<std::uint32_t> corners;
   std::array<CoarseFaces, kCoarse.size()> coarse;
@@ -56,10 +56,11 @@ struct IsosurfaceShape {
 
 class IsosurfaceMaker {
  public:
-  // Triangles of one isosurface; one with more is refused, since a picture by the engine is the better way then.
+  // Triangles of one isosurface; one with more is refused, since a picture by the engine is the better way
+  // then.
   static constexpr std::size_t kMostTriangles = 2'000'000;
-  // Samples that are held at once. A volume of no more stays in memory while one of its isosurfaces is wanted, so that a
-  // slider does not read it again.
+  // Samples that are held at once. A volume of no more stays in memory while one of its isosurfaces is
+  // wanted, so that a slider does not read it again.
   static constexpr std::int64_t kMostSampleBytes = std::int64_t{256} << 20;
 
   // Called on the thread.
@@ -75,8 +76,9 @@ class IsosurfaceMaker {
   IsosurfaceMaker(const IsosurfaceMaker&) = delete;
   IsosurfaceMaker& operator=(const IsosurfaceMaker&) = delete;
 
-  // All that is wanted from now on. What was made or is under way and is the same is not made again; one under way that
-  // is not among them, or has another value by now, is cancelled. Returns those for which an answer will come.
+  // All that is wanted from now on. What was made or is under way and is the same is not made again; one
+  // under way that is not among them, or has another value by now, is cancelled. Returns those for which an
+  // answer will come.
   std::set<Id> want(std::vector<IsosurfaceRequest> requests);
 
  private:

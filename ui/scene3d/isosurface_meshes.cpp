@@ -66,13 +66,14 @@ std::size_t IsosurfaceMeshes::coarse_count(Id isosurface, std::size_t level) con
   return of == nullptr ? 0 : of->coarse.at(level).faces.size();
 }
 
-std::size_t IsosurfaceMeshes::draw(Gl& gl, const Pass& pass, Id isosurface, const std::array<float, 3>& colour,
-                                   std::size_t first, std::size_t count) {
+std::size_t IsosurfaceMeshes::draw(Gl& gl, const Pass& pass, Id isosurface,
+                                   const std::array<float, 3>& colour, std::size_t first, std::size_t count) {
   const auto found = meshes_.find(isosurface);
   if (found == meshes_.end()) return 0;
   const std::size_t all = found->second.shape->triangles();
   first = std::min(first, all);
-  return draw_corners(gl, pass, found->second, colour, found->second.corners, first, std::min(count, all - first));
+  return draw_corners(gl, pass, found->second, colour, found->second.corners, first,
+                      std::min(count, all - first));
 }
 
 std::size_t IsosurfaceMeshes::draw_coarse(Gl& gl, const Pass& pass, Id isosurface,

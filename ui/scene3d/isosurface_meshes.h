@@ -23,8 +23,8 @@ class IsosurfaceMeshes {
   std::size_t coarse_count(Id isosurface, std::size_t level) const;
 
   // Triangles [first, first + count); returns the number drawn.
-  std::size_t draw(Gl& gl, const Pass& pass, Id isosurface, const std::array<float, 3>& colour, std::size_t first,
-                   std::size_t count);
+  std::size_t draw(Gl& gl, const Pass& pass, Id isosurface, const std::array<float, 3>& colour,
+                   std::size_t first, std::size_t count);
   std::size_t draw_coarse(Gl& gl, const Pass& pass, Id isosurface, const std::array<float, 3>& colour,
                           std::size_t level);
 

@@ -59,8 +59,8 @@ void SceneDrawing::release() {
   for (auto* batch : {&nodes_, &loose_dots_, &hover_dots_}) batch->release(gl);
   labels_.release(gl);
   flat_sprites_.release(gl);
-  for (GlTarget* target : {&frame_target_, &quick_target_, &front_target_, &back_target_, &fine_target_, &fine_samples_,
-                           &tile_target_, &tile_samples_}) {
+  for (GlTarget* target : {&frame_target_, &quick_target_, &front_target_, &back_target_, &fine_target_,
+                           &fine_samples_, &tile_target_, &tile_samples_}) {
     target->release(gl);
   }
   front_valid_ = fine_valid_ = back_.under_way = fine_.under_way = false;
@@ -217,7 +217,8 @@ void SceneDrawing::isosurfaces_changed() {
   // Triangles that are not wanted any more leave the card.
   const auto& all = workbench_.display.isosurfaces();
   const auto is_wanted = [&](Id id) {
-    return std::ranges::any_of(all, [id](const IsosurfaceLook& look) { return look.id == id && !look.as_picture; });
+    return std::ranges::any_of(
+        all, [id](const IsosurfaceLook& look) { return look.id == id && !look.as_picture; });
   };
   std::erase_if(shapes_to_upload_, [&](const auto& entry) { return !is_wanted(entry.first); });
   for (const Id id : shapes_.all()) {
@@ -300,9 +301,8 @@ bool SceneDrawing::upload_one() {
     return true;
   }
   // A mesh that is not there yet takes its samples later.
-  const auto voxels = std::ranges::find_if(voxels_to_upload_, [this](const auto& entry) {
-    return meshes_.has(entry.first);
-  });
+  const auto voxels =
+      std::ranges::find_if(voxels_to_upload_, [this](const auto& entry) { return meshes_.has(entry.first); });
   if (voxels != voxels_to_upload_.end()) {
     meshes_.put_voxels(*gl_, voxels->first, voxels->second);
     work_ += kWorkPerSlice / 8 + (voxels->second ? voxels->second->count() * 4 : 0);

@@ -104,10 +104,10 @@ class SceneDrawing {
     Id loose_plane = 0;
     bool under_way = false;
   };
-  static constexpr std::size_t kWorkPerSlice = 15'000;    // triangles
-  static constexpr std::size_t kQuickTriangles = 20'000;  // while the camera moves
+  static constexpr std::size_t kWorkPerSlice = 15'000;         // triangles
+  static constexpr std::size_t kQuickTriangles = 20'000;       // while the camera moves
   static constexpr std::size_t kQuickShapeTriangles = 12'000;  // of all isosurfaces, while the camera moves
-  static constexpr std::size_t kLooseTriangles = 20'000;  // of one fault that is being edited
+  static constexpr std::size_t kLooseTriangles = 20'000;       // of one fault that is being edited
   static constexpr int kFineSamples = 4;
   static constexpr int kQuickPixels = 250'000;  // of a frame while the camera moves, without a graphics card
   static constexpr int kTile = 1024;
@@ -186,8 +186,8 @@ class SceneDrawing {
   std::optional<ColourBar> bar_;
   bool range_old_ = true;  // range_ and bar_ are
 
-  GlTarget frame_target_, quick_target_, front_target_, back_target_, fine_target_, fine_samples_, tile_target_,
-      tile_samples_;
+  GlTarget frame_target_, quick_target_, front_target_, back_target_, fine_target_, fine_samples_,
+      tile_target_, tile_samples_;
   Layer front_, back_, fine_;
   bool is_software_ = false;  // the processor draws
   bool front_valid_ = false, front_old_ = true, fine_valid_ = false, fine_wanted_ = false, moving_ = false;

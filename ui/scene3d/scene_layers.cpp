@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "storage/base/error.h"
-#include "ui/scene3d/scene_drawing.h"
 #include "ui/model/sample_colours.h"
+#include "ui/scene3d/scene_drawing.h"
 
 namespace footwall::ui {
 
@@ -198,7 +198,8 @@ void SceneDrawing::draw_quickly(const Pass& quick) {
   marks_.draw(*gl_, quick, loose_lines_, true);
 }
 
-// A frame of a moving camera with fewer pixels, spread over the framebuffer; letters are as sharp as ever, and over all.
+// A frame of a moving camera with fewer pixels, spread over the framebuffer; letters are as sharp as ever,
+// and over all.
 void SceneDrawing::paint_small(GLuint framebuffer, const Pass& pass, int side) {
   Pass quick = pass;
   quick.quick = true;
@@ -210,8 +211,8 @@ void SceneDrawing::paint_small(GLuint framebuffer, const Pass& pass, int side) {
   draw_quickly(quick);
   marks_.draw(*gl_, quick, over_lines_, false, Marks::kLift);
   draw_hover(quick);
-  gl_->glBlitNamedFramebuffer(quick_target_.name(), framebuffer, 0, 0, quick.width, quick.height, 0, 0, pass.width,
-                              pass.height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  gl_->glBlitNamedFramebuffer(quick_target_.name(), framebuffer, 0, 0, quick.width, quick.height, 0, 0,
+                              pass.width, pass.height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
   begin(framebuffer, pass);
   gl_->glDisable(GL_DEPTH_TEST);
   marks_.draw(*gl_, pass, labels_);

@@ -245,7 +245,9 @@ void SceneView::Private::ask_for_shapes() {
   if (maker == nullptr && requests.empty()) return;
   if (maker == nullptr) {
     // Each on the maker's thread; the view's thread takes it if there is still a view.
-    const auto in_window = [this](auto what) { QMetaObject::invokeMethod(&view, what, Qt::QueuedConnection); };
+    const auto in_window = [this](auto what) {
+      QMetaObject::invokeMethod(&view, what, Qt::QueuedConnection);
+    };
     IsosurfaceMaker::Events events;
     events.made = [this, in_window](std::shared_ptr<const IsosurfaceShape> shape) {
       in_window([this, shape = std::move(shape)] { shape_came(shape); });
@@ -255,7 +257,8 @@ void SceneView::Private::ask_for_shapes() {
     };
     events.failed = [this, in_window](const IsosurfaceRequest& request, const std::string& message,
                                       const std::string& hint) {
-      in_window([this, id = request.isosurface, value = request.value, message = QString::fromStdString(message),
+      in_window([this, id = request.isosurface, value = request.value,
+                 message = QString::fromStdString(message),
                  hint = QString::fromStdString(hint)] { shape_failed(id, value, message, hint); });
     };
     maker = std::make_unique<IsosurfaceMaker>(std::move(events));
@@ -283,7 +286,8 @@ void SceneView::Private::shape_came(const std::shared_ptr<const IsosurfaceShape>
   changed();
 }
 
-void SceneView::Private::shape_failed(Id isosurface, double value, const QString& message, const QString& hint) {
+void SceneView::Private::shape_failed(Id isosurface, double value, const QString& message,
+                                      const QString& hint) {
   const auto& all = workbench.display.isosurfaces();
   const auto look = std::ranges::find(all, isosurface, &IsosurfaceLook::id);
   if (look == all.end() || look->value != value || look->as_picture) return;  // overtaken

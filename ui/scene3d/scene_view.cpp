@@ -136,8 +136,8 @@ void SceneView::Private::do_work() {
 bool SceneView::is_settled() const {
   const Private& d = *d_;
   if (!d.problem.isEmpty()) return true;
-  return d.drawing.is_built() && d.voxels.is_settled() && d.drawing.shape_share == 1 && !d.rest_timer.isActive() && !d.fine_timer.isActive() &&
-         !d.drawing.has_work();
+  return d.drawing.is_built() && d.voxels.is_settled() && d.drawing.shape_share == 1 &&
+         !d.rest_timer.isActive() && !d.fine_timer.isActive() && !d.drawing.has_work();
 }
 
 void SceneView::initializeGL() {

@@ -46,8 +46,8 @@ struct ActionRow {
   unsigned needs;
   void (*run)(MainWindow& window);
   bool (*checked)(MainWindow& window) =
-      nullptr;                // of a switch: whether it is on; asked only where `needs` are met
-  bool starts_group = false;  // a line above it in the menu
+      nullptr;                    // of a switch: whether it is on; asked only where `needs` are met
+  bool starts_group = false;      // a line above it in the menu
   const char* submenu = nullptr;  // of the menu, to be translated; rows of the same one stand together
 };
 

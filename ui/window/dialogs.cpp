@@ -41,8 +41,9 @@ void import_volume(MainWindow& window, const QString& path, bool anew) {
     return;
   }
   auto* dialog = new ImportSegyDialog(path, workbench, &window);
-  QObject::connect(dialog, &ImportSegyDialog::project_made, &window,
-                   [&window](const QString& project) { window.open_project(project); }, Qt::QueuedConnection);
+  QObject::connect(
+      dialog, &ImportSegyDialog::project_made, &window,
+      [&window](const QString& project) { window.open_project(project); }, Qt::QueuedConnection);
   show(dialog);
 }
 
@@ -79,6 +80,8 @@ void open_transform_dialog(MainWindow& window) {
                                window.tr("unlock it first"));
   }
   show(new TransformDialog(*window.workbench(), &window));
+}
+
 void open_compare_dialog(MainWindow& window) {
   show(new CompareDialog(*window.workbench(), &window));
 }
@@ -99,14 +102,14 @@ void warn_of_history(MainWindow& window) {
   if (bytes > kLarge) text = window.tr("The history takes %1 MiB of the project.").arg(bytes >> 20);
   if (old > 0) text = window.tr("%1 steps of the history are older than %2 days.").arg(old).arg(*days);
   if (text.isEmpty()) return;
-  window.banners().show_banner(QStringLiteral("history"),
-                               {.kind = BannerArea::Kind::kNotice,
-                                .text = text,
-                                .hint = window.tr("nothing is dropped by itself"),
-                                .buttons = {{window.tr("Trim…"), [&window] { open_trim_history_dialog(window); }},
-                                            {window.tr("Keep all"), [&window] {
-                                               window.banners().remove(QStringLiteral("history"));
-                                             }}}});
+  window.banners().show_banner(
+      QStringLiteral("history"),
+      {.kind = BannerArea::Kind::kNotice,
+       .text = text,
+       .hint = window.tr("nothing is dropped by itself"),
+       .buttons = {
+           {window.tr("Trim…"), [&window] { open_trim_history_dialog(window); }},
+           {window.tr("Keep all"), [&window] { window.banners().remove(QStringLiteral("history")); }}}});
 }
 
 void open_isosurface_dialog(MainWindow& window, Id isosurface) {

@@ -10,8 +10,8 @@
 #include "storage/formats/stick_formats.h"
 #include "ui/dialogs/export_choice.h"
 #include "ui/window/action_groups.h"
-#include "ui/window/dialogs.h"
 #include "ui/window/banner.h"
+#include "ui/window/dialogs.h"
 #include "ui/window/main_window.h"
 #include "ui/window/view_area.h"
 #include "ui/window/view_tile.h"
@@ -164,8 +164,8 @@ std::vector<ActionRow> file_actions() {
        "export", QT_TRANSLATE_NOOP("Actions", "Write all picked pillars as fault sticks"), kProject,
        export_sticks},
       {"file.export", M::kFile, QT_TRANSLATE_NOOP("Actions", "E&xport…"), "Ctrl+Shift+E", "export",
-       QT_TRANSLATE_NOOP("Actions", "Write faces with their statistics, sticks, volumes or a picture"), kProject,
-       open_export_dialog},
+       QT_TRANSLATE_NOOP("Actions", "Write faces with their statistics, sticks, volumes or a picture"),
+       kProject, open_export_dialog},
       {"file.picture", M::kFile, QT_TRANSLATE_NOOP("Actions", "Save &picture…"), "Ctrl+P", "picture",
        QT_TRANSLATE_NOOP("Actions", "Write a picture of the window as PNG"), kNothing, save_picture},
       {"file.scene-picture", M::kFile, QT_TRANSLATE_NOOP("Actions", "Save picture of the scene…"),

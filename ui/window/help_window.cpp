@@ -40,7 +40,7 @@ class GuideBrowser final : public QTextBrowser {
     const QVariant found = QTextBrowser::loadResource(type, name);
     if (type != QTextDocument::ImageResource) return found;
     const QImage image = found.typeId() == QMetaType::QByteArray ? QImage::fromData(found.toByteArray())
-                                                                  : found.value<QImage>();
+                                                                 : found.value<QImage>();
     if (image.width() <= kPictureWidth) return image;
     return image.scaledToWidth(kPictureWidth, Qt::SmoothTransformation);
   }

@@ -24,9 +24,9 @@
 #include "ui/model/project_job.h"
 #include "ui/window/actions.h"
 #include "ui/window/banner.h"
+#include "ui/window/dialogs.h"
 #include "ui/window/docks.h"
 #include "ui/window/file_kinds.h"
-#include "ui/window/dialogs.h"
 #include "ui/window/import_files.h"
 #include "ui/window/start_page.h"
 #include "ui/window/status_line.h"
@@ -294,8 +294,8 @@ void MainWindow::relink(const QString& volume, const QString& file) {
     start_on_project(
         *workbench_, tr("Relink %1").arg(volume.isEmpty() ? QFileInfo(file).fileName() : volume),
         [relinked, volume, file](project::Project& project, const JobContext&) {
-          *relinked = QString::fromStdString(
-              tasks::relink_volume(project, volume.toStdString(), file.toStdString()));
+          *relinked =
+              QString::fromStdString(tasks::relink_volume(project, volume.toStdString(), file.toStdString()));
         },
         [this, relinked] { banners_->remove(QStringLiteral("missing-%1").arg(*relinked)); });
   } catch (const Error& error) {
@@ -318,7 +318,8 @@ void MainWindow::follow_changes() {
 void MainWindow::show_surface_banner() {
   const Id id = workbench_ ? workbench_->selection.active_fault() : 0;
   const Fault* fault = id != 0 ? workbench_->document.fault(id) : nullptr;
-  if (fault != nullptr && (workbench_->document.is_provisional(id) || workbench_->picking.active_pillar() != 0))
+  if (fault != nullptr &&
+      (workbench_->document.is_provisional(id) || workbench_->picking.active_pillar() != 0))
     return;
   const QString problem = fault != nullptr ? workbench_->surfaces.problem(id) : QString();
   if (problem.isEmpty() || fault->pillars.size() < 2 || workbench_->surfaces.surface(id))

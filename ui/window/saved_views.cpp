@@ -26,8 +26,9 @@ void take_over_isosurfaces(const Display& from, Workbench& bench) {
   Display& to = bench.display;
   std::vector<IsosurfaceLook> stored = from.isosurfaces();
   for (IsosurfaceLook look : std::vector<IsosurfaceLook>(to.isosurfaces())) {
-    const auto same = std::ranges::find_if(
-        stored, [&](const IsosurfaceLook& one) { return one.volume == look.volume && one.value == look.value; });
+    const auto same = std::ranges::find_if(stored, [&](const IsosurfaceLook& one) {
+      return one.volume == look.volume && one.value == look.value;
+    });
     look.visible = same != stored.end() && same->visible;
     if (same != stored.end()) {
       look.colour = same->colour;

@@ -49,7 +49,8 @@ void FaceValuesTest::a_moved_face_is_stale_until_it_is_answered() {
   QVERIFY(!values.any_stale("variance"));
   put(values, 50, 2);
   QCOMPARE(values.numbers("variance")->stale, (std::vector<std::uint8_t>{0, 1}));
-  QCOMPARE(values.numbers("variance")->values, (std::vector<double>{2, 3}));  // the last one known, until then
+  QCOMPARE(values.numbers("variance")->values,
+           (std::vector<double>{2, 3}));  // the last one known, until then
   answer(values, 2, 5, 2);
   QVERIFY(!values.any_stale("variance"));
   QCOMPARE(values.numbers("variance")->values, (std::vector<double>{2, 5}));

@@ -341,8 +341,9 @@ TEST(Triangulate, WeavesAHundredThousandTriangles) {
   EXPECT_GT(m.faces.size(), 80000u);
 }
 
-// A fault picked on four inlines ten apart, long down the section: one node that sticks out by more than the lines
-// are apart turns the least-squares plane of the nodes into the section, where the pillars lie on one another.
+// A fault picked on four inlines ten apart, long down the section: one node that sticks out by more than the
+// lines are apart turns the least-squares plane of the nodes into the section, where the pillars lie on one
+// another.
 TEST(Triangulate, NarrowFaultWithANodeFarOutKeepsASurface) {
   std::vector<PillarInput> pillars;
   for (int p = 0; p < 4; ++p) {
