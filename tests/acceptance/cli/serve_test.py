@@ -97,11 +97,11 @@ class Serve(ServedTest):
         self.assertIn(str(rank), error["hint"])
         os.kill(rank, signal.SIGCONT)
         self.footwall("status", "@e.json", "--wait", "60")
-        # All at once, so that nobody can clean.
+        # All at once, so that nobody can clean; parents last: the system lets stopped ones go on whose parent dies.
         family = [process.pid, *below(process.pid)]
         for each in family:
             os.kill(each, signal.SIGSTOP)
-        for each in family:
+        for each in reversed(family):
             with contextlib.suppress(ProcessLookupError):  # the system ends some with their parents
                 os.kill(each, signal.SIGKILL)
         process.wait()
