@@ -11,6 +11,7 @@ using render::Vec3;
 
 constexpr int kRestMilliseconds = 120;
 constexpr int kFineMilliseconds = 350;
+constexpr int kSoonMilliseconds = 30;
 
 }  // namespace
 
@@ -32,13 +33,24 @@ void SceneView::Private::connect_models() {
     work_timer.start();
   });
 
+  soon_timer.setInterval(kSoonMilliseconds);
+  soon_timer.setSingleShot(true);
+  QObject::connect(&soon_timer, &QTimer::timeout, &view, [this] { changed(); });
+
   Document& document = workbench.document;
   Display& display = workbench.display;
+  // A hand in another view moves nodes, and an engine is there that will say their colours at once.
+  const auto more_follows = [this](const std::set<Id>& faults) {
+    const auto is_under_hand = [this](Id fault) { return workbench.document.is_provisional(fault); };
+    return !drawing.has_mouse && workbench.engine.state() == EngineLink::State::kReady &&
+           std::ranges::any_of(faults, is_under_hand);
+  };
   QObject::connect(&document, &Document::survey_changed, &view, [this] { survey_changed(); });
-  QObject::connect(&document, &Document::shapes_changed, &view, [this](const std::set<Id>& faults) {
-    drawing.pillars_changed(faults);
-    changed();
-  });
+  QObject::connect(&document, &Document::shapes_changed, &view,
+                   [this, more_follows](const std::set<Id>& faults) {
+                     drawing.pillars_changed(faults);
+                     more_follows(faults) ? changed_soon() : changed();
+                   });
   const auto all_again = [this] {
     std::set<Id> all;
     for (const Fault& fault : workbench.document.faults()) all.insert(fault.record.id);
@@ -65,10 +77,10 @@ void SceneView::Private::connect_models() {
     ask_for_shapes();
   });
   QObject::connect(&workbench.surfaces, &Surfaces::surfaces_changed, &view,
-                   [this](const std::set<Id>& faults) {
+                   [this, more_follows](const std::set<Id>& faults) {
                      drawing.surfaces_changed(faults);
                      ask_for_voxels();
-                     changed();
+                     more_follows(faults) ? changed_soon() : changed();
                    });
   QObject::connect(&workbench.surfaces, &Surfaces::numbers_changed, &view,
                    [this](const std::set<Id>& faults) {
@@ -116,7 +128,8 @@ void SceneView::Private::connect_models() {
     ask_for_shapes();
   });
   QObject::connect(&display, &Display::cursor_moved, &view, [this] {
-    if (!drawing.has_mouse) view.update();
+    if (drawing.has_mouse || soon_timer.isActive()) return;
+    workbench.picking.is_dragging() ? changed_soon() : view.update();
   });
   QObject::connect(&display, &Display::scene_changed, &view, [this] {
     Display& now = workbench.display;

@@ -25,6 +25,7 @@ struct SceneView::Private {
   QTimer work_timer;  // slices of work while there is any
   QTimer rest_timer;  // the camera stands still
   QTimer fine_timer;  // nothing has changed for a while
+  QTimer soon_timer;  // a frame waits for what is about to come
   bool was_settled = true;
   bool fitted = false;
   // The words that set the camera last, and where it stood then: angles round, words must not.
@@ -72,6 +73,9 @@ struct SceneView::Private {
   void picture_came(const std::shared_ptr<const Picture>& picture);
   void camera_moved();
   void changed();  // something is to be drawn
+  // The same, but what follows within a moment is drawn in the same frame: on a processor that draws each
+  // frame costs as much as all the rest of a drag.
+  void changed_soon();
   void do_work();
   void forget_gl();
   QSizeF size() const { return QSizeF(view.size()); }

@@ -89,8 +89,15 @@ void SceneView::Private::take_style() {
 void SceneView::Private::changed() {
   fine_timer.start();
   was_settled = false;
+  soon_timer.stop();
   work_timer.start();
   view.update();
+}
+
+void SceneView::Private::changed_soon() {
+  fine_timer.start();
+  was_settled = false;
+  if (!soon_timer.isActive()) soon_timer.start();
 }
 
 void SceneView::Private::camera_moved() {
@@ -137,7 +144,8 @@ bool SceneView::is_settled() const {
   const Private& d = *d_;
   if (!d.problem.isEmpty()) return true;
   return d.drawing.is_built() && d.voxels.is_settled() && d.drawing.shape_share == 1 &&
-         !d.rest_timer.isActive() && !d.fine_timer.isActive() && !d.drawing.has_work();
+         !d.rest_timer.isActive() && !d.fine_timer.isActive() && !d.soon_timer.isActive() &&
+         !d.drawing.has_work();
 }
 
 void SceneView::initializeGL() {
