@@ -9,7 +9,7 @@ namespace {
 
 namespace segy = formats::segy;
 
-constexpr int kLeft = 48;
+constexpr int kLeft = 56;
 constexpr int kTop = 22;
 
 // 1, 2 or 5 times a power of ten, so that `range` has about `parts` of it.

@@ -88,6 +88,14 @@ void ViewArea::activate_next(int by) {
 }
 
 void ViewArea::maximise(ViewTile* tile) {
+  if (maximised_ == nullptr) {
+    widths_before_ = columns_->sizes();
+    heights_before_.clear();
+    for (int n = 0; n < columns_->count(); ++n) {
+      if (const auto* column = qobject_cast<QSplitter*>(columns_->widget(n)))
+        heights_before_[column] = column->sizes();
+    }
+  }
   maximised_ = tile == maximised_ ? nullptr : tile;
   for (int n = 0; n < columns_->count(); ++n) {
     auto* column = qobject_cast<QSplitter*>(columns_->widget(n));
@@ -137,6 +145,9 @@ void ViewArea::show_scene(bool on) {
 
 // A section is named by its place in Display's list: its id is another one after opening.
 QJsonObject ViewArea::layout() const {
+  const auto sizes_of = [this](const QSplitter& splitter, const QList<int>& before) {
+    return json_of(maximised_ != nullptr && before.size() == splitter.count() ? before : splitter.sizes());
+  };
   QJsonArray columns;
   const auto& sections = workbench_.display.sections();
   for (int n = 0; n < columns_->count(); ++n) {
@@ -147,9 +158,12 @@ QJsonObject ViewArea::layout() const {
       const auto found = std::ranges::find(sections, tile->section(), &Display::ShownSection::id);
       tiles.append(tile->section() == 0 ? -1 : static_cast<int>(found - sections.begin()));
     }
-    columns.append(QJsonObject{{"tiles", tiles}, {"heights", json_of(column->sizes())}});
+    const auto before = heights_before_.find(column);
+    columns.append(QJsonObject{
+        {"tiles", tiles},
+        {"heights", sizes_of(*column, before != heights_before_.end() ? before->second : QList<int>())}});
   }
-  return {{"columns", columns}, {"widths", json_of(columns_->sizes())}};
+  return {{"columns", columns}, {"widths", sizes_of(*columns_, widths_before_)}};
 }
 
 void ViewArea::build(const QJsonObject& layout) {

@@ -2,7 +2,9 @@
 // and one for the scene, which can be closed.
 #pragma once
 #include <QJsonObject>
+#include <QList>
 #include <QWidget>
+#include <map>
 #include <vector>
 
 #include "ui/window/views.h"
@@ -61,6 +63,9 @@ class ViewArea final : public QWidget {
   QSplitter* columns_ = nullptr;
   ViewTile* active_ = nullptr;
   ViewTile* maximised_ = nullptr;
+  // While a view is maximised: the sizes before, which hidden views do not have.
+  QList<int> widths_before_;
+  std::map<const QSplitter*, QList<int>> heights_before_;
 };
 
 }  // namespace footwall::ui
