@@ -82,7 +82,7 @@ RunDialog::RunDialog(Workbench& workbench, QWidget* parent) : QDialog(parent), w
   connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
   auto* buttons = new QHBoxLayout;
   buttons->setSpacing(8);
-  buttons->addWidget(message_, 1);
+  buttons->addStretch(1);
   buttons->addWidget(cancel);
   buttons->addWidget(run);
   auto* column = new QVBoxLayout(this);
@@ -92,6 +92,7 @@ RunDialog::RunDialog(Workbench& workbench, QWidget* parent) : QDialog(parent), w
   column->addWidget(more_);
   column->addWidget(choices);
   column->addStretch(1);
+  column->addWidget(message_);
   column->addLayout(buttons);
 }
 
@@ -131,6 +132,7 @@ void RunDialog::run() {
   } catch (const Error& error) {
     message_->setText(QString::fromStdString(error.hint().empty() ? error.message()
                                                                   : error.message() + ": " + error.hint()));
+    adjustSize();  // a refusal may need several lines
   }
 }
 
