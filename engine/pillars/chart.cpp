@@ -186,15 +186,25 @@ void add_moment(Moments& moments, const Vector3& d) {
     for (int c = 0; c < 3; ++c) moments[r][c] += d[r] * d[c];
 }
 
+// The directions of a spread, by rising moment.
+struct Axes {
+  explicit Axes(Moments spread) : moments(spread) {
+    jacobi(moments, vectors);
+    std::stable_sort(by_size.begin(), by_size.end(),
+                     [&](int a, int b) { return moments[a][a] < moments[b][b]; });
+  }
+  double middle() const { return moments[by_size[1]][by_size[1]]; }
+  Moments moments;
+  std::array<Vector3, 3> vectors{};  // in columns
+  std::array<int, 3> by_size{0, 1, 2};
+};
+
 // The frame whose normal is the direction of least moment.
-Chart frame_of(const Vector3& origin, Moments moments, std::span<const PillarInput> pillars) {
+Chart frame_of(const Vector3& origin, const Axes& axes, std::span<const PillarInput> pillars) {
+  const auto& vectors = axes.vectors;
+  const auto& by_size = axes.by_size;
   Chart chart;
   chart.origin = origin;
-  std::array<Vector3, 3> vectors;
-  jacobi(moments, vectors);
-  std::array<int, 3> by_size{0, 1, 2};
-  std::stable_sort(by_size.begin(), by_size.end(),
-                   [&](int a, int b) { return moments[a][a] < moments[b][b]; });
   auto column = [&](int c) { return cleaned({vectors[0][c], vectors[1][c], vectors[2][c]}); };
   chart.normal = column(by_size[0]);
   const double first = chart.normal[0] != 0   ? chart.normal[0]
@@ -216,15 +226,6 @@ Chart frame_of(const Vector3& origin, Moments moments, std::span<const PillarInp
   chart.strike = unit(chart.strike);
   chart.along = main_direction(chart, pillars);
   return chart;
-}
-
-// Of a symmetric matrix: its middle eigenvalue.
-double middle_moment(Moments moments) {
-  std::array<Vector3, 3> vectors;
-  jacobi(moments, vectors);
-  std::array<double, 3> values{moments[0][0], moments[1][1], moments[2][2]};
-  std::sort(values.begin(), values.end());
-  return values[1];
 }
 
 }  // namespace
@@ -250,10 +251,11 @@ Chart fit_chart(std::span<const PillarInput> pillars) {
     for (const IndexPoint& q : p->nodes)
       add_moment(moments, {q.i - origin[0], q.j - origin[1], q.k - origin[2]});
   }
-  if (!(std::sqrt(std::max(0.0, middle_moment(moments)) / middle.count) > kTouch))
+  const Axes axes(moments);
+  if (!(std::sqrt(std::max(0.0, axes.middle()) / middle.count) > kTouch))
     throw Error(ErrorCode::kInvalid, "the pillars' nodes all lie on one line",
                 "pick the fault on further sections");
-  return frame_of(origin, moments, pillars);
+  return frame_of(origin, axes, pillars);
 }
 
 std::optional<Chart> fit_chart_across(std::span<const PillarInput> pillars) {
@@ -283,8 +285,9 @@ std::optional<Chart> fit_chart_across(std::span<const PillarInput> pillars) {
   Moments both{};
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) both[r][c] = along[r][c] / a + between[r][c] / b;
-  if (!(middle_moment(both) > 1e-6)) return std::nullopt;
-  return frame_of(origin, both, pillars);
+  const Axes axes(both);
+  if (!(axes.middle() > 1e-6)) return std::nullopt;
+  return frame_of(origin, axes, pillars);
 }
 
 }  // namespace footwall::pillars
