@@ -15,7 +15,7 @@ constexpr double kFewestSamples = 30;  // below, a face is left out of rankings
 enum Family : std::size_t { kWithMoves, kLate };
 
 Family family_of(const std::string& statistic) {
-  return statistic.starts_with("offset") ? kLate : kWithMoves;
+  return comes_late(QString::fromStdString(statistic)) ? kLate : kWithMoves;
 }
 
 std::set<Family> families_of(const std::map<std::string, std::vector<double>>& columns) {
@@ -134,16 +134,16 @@ void FaceValues::mark_all_stale() {
   for (auto& places : computed_at_) std::ranges::fill(places, std::nullopt);
 }
 
-bool FaceValues::is_stale(const std::string& statistic, std::size_t face) const {
-  return computed_at_[family_of(statistic)][face] != surface_->lattice[face];
+std::vector<std::uint8_t> FaceValues::stale_faces(const std::string& statistic) const {
+  std::vector<std::uint8_t> stale(moved_under_.size(), 0);
+  if (is_geometry(statistic)) return stale;
+  const auto& places = computed_at_[family_of(statistic)];
+  for (std::size_t f = 0; f < stale.size(); ++f) stale[f] = places[f] != surface_->lattice[f] ? 1 : 0;
+  return stale;
 }
 
 bool FaceValues::any_stale(const std::string& statistic) const {
-  if (is_geometry(statistic)) return false;
-  for (std::size_t f = 0; f < moved_under_.size(); ++f) {
-    if (is_stale(statistic, f)) return true;
-  }
-  return false;
+  return std::ranges::count(stale_faces(statistic), 1) != 0;
 }
 
 std::shared_ptr<const FaceNumbers> FaceValues::numbers(const std::string& statistic) const {
@@ -152,10 +152,7 @@ std::shared_ptr<const FaceNumbers> FaceValues::numbers(const std::string& statis
   auto numbers = std::make_shared<FaceNumbers>();
   numbers->values = *values;
   const std::size_t count = moved_under_.size();
-  numbers->stale.assign(count, 0);
-  if (!is_geometry(statistic)) {
-    for (std::size_t f = 0; f < count; ++f) numbers->stale[f] = is_stale(statistic, f) ? 1 : 0;
-  }
+  numbers->stale = stale_faces(statistic);
   numbers->hatched.assign(count, 0);
   if (const std::vector<double>* counts = find("count")) {
     for (std::size_t f = 0; f < count; ++f) numbers->hatched[f] = (*counts)[f] < kFewestSamples ? 1 : 0;

@@ -48,7 +48,8 @@ class FaceValues {
   std::shared_ptr<const FaceNumbers> numbers(const std::string& statistic) const;
 
  private:
-  bool is_stale(const std::string& statistic, std::size_t face) const;
+  // One entry a face: 1 where its value is that of another place than it has now, or it has none.
+  std::vector<std::uint8_t> stale_faces(const std::string& statistic) const;
   std::vector<double>& column(const std::string& statistic);
 
   std::shared_ptr<const FaultSurface> surface_;

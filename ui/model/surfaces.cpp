@@ -161,9 +161,7 @@ struct Surfaces::State {
         surface != nullptr && entry.surface != nullptr && surface->side != entry.surface->side;
     entry.surface = std::move(surface);
     entry.values.set_surface(entry.surface);
-    if (turned) {
-      for (const char* offset : kOffsets) entry.values.mark_stale(offset);
-    }
+    if (turned) entry.values.mark_stale("offset");
     entry.numbers.clear();
     entry.values.scale("offset", "offset_voxels", "metres_along_normal");
     if (engine == nullptr || fault == 0) return;
