@@ -34,6 +34,15 @@ class ActionsTest final : public QObject {
   void the_guide_has_every_action_with_its_keys();
 };
 
+// Shows the project in a window that has the keys.
+static void open_with_the_keys(MainWindow& window, const SampleProject& sample) {
+  window.resize(1200, 800);
+  window.show();
+  QApplication::setActiveWindow(&window);  // there is no window manager that would
+  QTRY_VERIFY(window.isActiveWindow());
+  QVERIFY(window.open_project(QString::fromStdString(sample.path().string())));
+}
+
 void ActionsTest::every_action_has_name_icon_shortcut_tip_and_a_place_in_a_menu() {
   MainWindow window({});
   std::set<QAction*> in_menus;
@@ -106,11 +115,8 @@ void ActionsTest::without_a_project_only_what_needs_none_is_enabled() {
 void ActionsTest::shortcuts_do_what_the_menu_does() {
   const SampleProject sample;
   MainWindow window({});
-  window.resize(1200, 800);
-  window.show();
-  QApplication::setActiveWindow(&window);  // there is no window manager that would
-  QTRY_VERIFY(window.isActiveWindow());
-  QVERIFY(window.open_project(QString::fromStdString(sample.path().string())));
+  open_with_the_keys(window, sample);
+  if (QTest::currentTestFailed()) return;
   Display& display = window.workbench()->display;
   QTest::keyClick(&window, Qt::Key_O);
   QVERIFY(!display.perspective());
@@ -149,11 +155,8 @@ void ActionsTest::shortcuts_do_what_the_menu_does() {
 void ActionsTest::enter_accepts_a_shift_over_the_views_alone() {
   const SampleProject sample;
   MainWindow window({});
-  window.resize(1200, 800);
-  window.show();
-  QApplication::setActiveWindow(&window);  // there is no window manager that would
-  QTRY_VERIFY(window.isActiveWindow());
-  QVERIFY(window.open_project(QString::fromStdString(sample.path().string())));
+  open_with_the_keys(window, sample);
+  if (QTest::currentTestFailed()) return;
   Workbench& bench = *window.workbench();
   const QAction* accept = window.actions().action(QStringLiteral("fault.accept-shift"));
   QSignalSpy triggered(accept, &QAction::triggered);
