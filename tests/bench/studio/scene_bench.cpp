@@ -101,13 +101,7 @@ void measure_turns(MadeScene& scene, const std::string& name) {
 void measure(const QSize& size) {
   MadeScene scene({48, 40, 64}, 50, 25);
   add_many_faults(scene.bench.document, kFaults);
-  std::set<Id> all;
-  std::size_t triangles = 0;
-  for (const Fault& fault : scene.bench.document.faults()) {
-    scene.remake(fault.record.id);
-    all.insert(fault.record.id);
-    triangles += scene.surfaces[fault.record.id]->faces.size();
-  }
+  const auto [all, triangles] = scene.remake_all();
   scene.view->resize(size);
   fmt::print("{} faults, {} triangles, {} x {} pixels\n", scene.bench.document.faults().size(), triangles,
              size.width(), size.height());

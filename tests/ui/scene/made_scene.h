@@ -127,6 +127,21 @@ class MadeScene {
     numbers[fault] = values;
   }
 
+  // All of them; with how many triangles they have.
+  struct Remade {
+    std::set<Id> faults{};
+    std::size_t triangles = 0;
+  };
+  Remade remake_all() {
+    Remade all;
+    for (const Fault& fault : bench.document.faults()) {
+      remake(fault.record.id);
+      all.faults.insert(fault.record.id);
+      all.triangles += surfaces[fault.record.id]->faces.size();
+    }
+    return all;
+  }
+
   void give(QObject* asker, Id volume, const Section& section) {
     const PlaneSize size = size_of(section, *bench.document.survey());
     auto samples = std::make_shared<SectionSamples>();

@@ -18,13 +18,7 @@ class SpeedTest final : public QObject {
 void SpeedTest::a_mouse_move_draws_what_moves() {
   MadeScene scene({48, 40, 64}, 50, 25);
   add_many_faults(scene.bench.document, 200);
-  std::set<Id> all;
-  std::size_t triangles = 0;
-  for (const Fault& fault : scene.bench.document.faults()) {
-    scene.remake(fault.record.id);
-    all.insert(fault.record.id);
-    triangles += scene.surfaces[fault.record.id]->faces.size();
-  }
+  const auto [all, triangles] = scene.remake_all();
   QVERIFY(triangles > 1'000'000);
   Q_EMIT scene.bench.surfaces.surfaces_changed(all);
   const Fault edited = scene.bench.document.faults().back();
