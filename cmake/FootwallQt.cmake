@@ -4,7 +4,7 @@ if(NOT FOOTWALL_STUDIO)
   return()
 endif()
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
-find_package(Qt6 6.4 REQUIRED COMPONENTS Core Gui Widgets OpenGL OpenGLWidgets Svg Test)
+find_package(Qt6 6.4 REQUIRED COMPONENTS Core Gui Widgets OpenGL Svg Test)
 # Some of our own identifiers are called signals, slots or emit.
 set_property(TARGET Qt6::Core APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS QT_NO_KEYWORDS)
 

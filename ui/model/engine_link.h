@@ -23,8 +23,9 @@ struct FaultSurface;
 
 // Statistics of faces by name, as one answer of the engine brings them. Entry n of each is of face n.
 struct EngineNumbers {
-  std::uint64_t edit = 0;             // the newest edit that they know of, with all before it
-  std::map<Id, std::uint64_t> known;  // of each fault here, the edit that put it as it was computed
+  std::uint64_t edit = 0;  // the newest edit that they know of, with all before it
+  // Of each fault here, the surface that the engine had when it computed them.
+  std::map<Id, std::shared_ptr<const FaultSurface>> computed_on;
   std::vector<std::int64_t> faults, panels;
   std::vector<std::int32_t> face_numbers;
   std::map<std::string, std::vector<double>> statistics;

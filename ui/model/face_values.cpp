@@ -8,7 +8,6 @@ namespace footwall::ui {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr std::uint64_t kNotTold = std::numeric_limits<std::uint64_t>::max();
 constexpr double kFewestSamples = 30;  // below, a face is left out of rankings
 
 // Offsets are computed apart from the rest, when a gesture is over.
@@ -30,19 +29,16 @@ void FaceValues::set_surface(std::shared_ptr<const FaultSurface> surface) {
   const std::shared_ptr<const FaultSurface> before = std::exchange(surface_, std::move(surface));
   const auto former_values = std::exchange(values_, {});
   const auto former_computed = std::exchange(computed_at_, {});
-  const auto former_moved = std::exchange(moved_under_, {});
   if (surface_ == nullptr) return;
   const std::size_t count = surface_->faces.size();
   for (auto& places : computed_at_) places.assign(count, std::nullopt);
-  moved_under_.assign(count, kNotTold);
   if (before == nullptr) return;
-  std::vector<std::size_t> from(count, former_moved.size());
+  std::vector<std::size_t> from(count, before->faces.size());
   for (std::size_t f = 0; f < count; ++f) {
     const std::size_t place = before->place_of(surface_->faces[f].panel, surface_->faces[f].n, f);
     if (place == before->faces.size()) continue;
     from[f] = place;
     for (const Family family : {kWithMoves, kLate}) computed_at_[family][f] = former_computed[family][place];
-    if (before->lattice[place] == surface_->lattice[f]) moved_under_[f] = former_moved[place];
   }
   for (const auto& [statistic, old] : former_values) {
     std::vector<double>& now = values_[statistic];
@@ -63,7 +59,7 @@ const std::vector<double>* FaceValues::find(const std::string& statistic) const 
 
 std::vector<double>& FaceValues::column(const std::string& statistic) {
   std::vector<double>& values = values_[statistic];
-  values.resize(moved_under_.size(), kUnknown);
+  values.resize(surface_->faces.size(), kUnknown);
   return values;
 }
 
@@ -76,7 +72,7 @@ void FaceValues::set(std::span<const Id> panels, std::span<const std::int32_t> n
   std::size_t guess = 0;
   for (std::size_t n = 0; n < panels.size(); ++n) {
     const std::size_t place = places[n] = surface_->place_of(panels[n], numbers[n], guess);
-    if (place == moved_under_.size()) continue;
+    if (place == surface_->faces.size()) continue;
     guess = place + 1;
     for (const Family family : families) computed_at_[family][place] = corners[n];
   }
@@ -91,20 +87,23 @@ void FaceValues::set(std::span<const Id> panels, std::span<const std::int32_t> n
 
 void FaceValues::take(const std::vector<Id>& panels, const std::vector<std::int32_t>& numbers,
                       const std::map<std::string, std::vector<double>>& statistics,
-                      const std::vector<std::size_t>& rows, std::uint64_t edit) {
+                      const std::vector<std::size_t>& rows, const FaultSurface& computed_on) {
   const std::set<Family> families = families_of(statistics);
   std::vector<std::pair<std::size_t, std::size_t>> placed;  // row, place
   if (surface_ == nullptr) return;
   placed.reserve(rows.size());
-  std::size_t guess = 0;
+  std::size_t guess = 0, former_guess = 0;
   for (const std::size_t row : rows) {
     const std::size_t place = surface_->place_of(panels[row], numbers[row], guess);
-    if (place == moved_under_.size()) continue;
+    const std::size_t former = computed_on.place_of(panels[row], numbers[row], former_guess);
+    if (place == surface_->faces.size() || former == computed_on.faces.size()) continue;
     guess = place + 1;
+    former_guess = former + 1;
     placed.emplace_back(row, place);
     for (const Family family : families) {
-      computed_at_[family][place] =
-          moved_under_[place] <= edit ? std::optional(surface_->lattice[place]) : std::nullopt;
+      // An offset is along the normal, whose side is the whole surface's.
+      const bool turned = family == kLate && computed_on.side != surface_->side;
+      computed_at_[family][place] = turned ? std::nullopt : std::optional(computed_on.lattice[former]);
     }
   }
   if (placed.empty()) return;
@@ -112,10 +111,6 @@ void FaceValues::take(const std::vector<Id>& panels, const std::vector<std::int3
     std::vector<double>& into = column(statistic);
     for (const auto& [row, place] : placed) into[place] = values[row];
   }
-}
-
-void FaceValues::tell_moved(std::uint64_t edit) {
-  std::ranges::replace(moved_under_, kNotTold, edit);
 }
 
 void FaceValues::scale(const std::string& product, const std::string& factor, const std::string& other) {
@@ -135,7 +130,8 @@ void FaceValues::mark_all_stale() {
 }
 
 std::vector<std::uint8_t> FaceValues::stale_faces(const std::string& statistic) const {
-  std::vector<std::uint8_t> stale(moved_under_.size(), 0);
+  if (surface_ == nullptr) return {};
+  std::vector<std::uint8_t> stale(surface_->faces.size(), 0);
   if (is_geometry(statistic)) return stale;
   const auto& places = computed_at_[family_of(statistic)];
   for (std::size_t f = 0; f < stale.size(); ++f) stale[f] = places[f] != surface_->lattice[f] ? 1 : 0;
@@ -151,7 +147,7 @@ std::shared_ptr<const FaceNumbers> FaceValues::numbers(const std::string& statis
   if (values == nullptr) return nullptr;
   auto numbers = std::make_shared<FaceNumbers>();
   numbers->values = *values;
-  const std::size_t count = moved_under_.size();
+  const std::size_t count = surface_->faces.size();
   numbers->stale = stale_faces(statistic);
   numbers->hatched.assign(count, 0);
   if (const std::vector<double>* counts = find("count")) {

@@ -23,13 +23,11 @@ class FaceValues {
   void set(std::span<const Id> panels, std::span<const std::int32_t> numbers,
            std::span<const survey::LatticeTriangle> corners,
            const std::map<std::string, std::vector<double>>& columns);
-  // Of many faces at once, as an engine answers: row r of all is of face (panels[r], numbers[r]), computed as
-  // the face stood under this edit. Takes the rows named.
+  // Of many faces at once, as an engine answers: row r of all is of face (panels[r], numbers[r]), computed
+  // where the face stood on that surface, which may be an older one. Takes the rows named.
   void take(const std::vector<Id>& panels, const std::vector<std::int32_t>& numbers,
             const std::map<std::string, std::vector<double>>& statistics,
-            const std::vector<std::size_t>& rows, std::uint64_t edit);
-  // The faces that moved when the surface was last set moved under this edit.
-  void tell_moved(std::uint64_t edit);
+            const std::vector<std::size_t>& rows, const FaultSurface& computed_on);
   // What follows from the faces' places alone (FaultSurface::geometry); never stale.
   bool is_geometry(const std::string& statistic) const {
     return surface_ != nullptr && surface_->geometry.contains(statistic);
@@ -57,7 +55,6 @@ class FaceValues {
   // Where each face stood when its values were computed, those that come with every move and those that come
   // late; nothing where that is not known.
   std::array<std::vector<std::optional<survey::LatticeTriangle>>, 2> computed_at_;
-  std::vector<std::uint64_t> moved_under_;  // the edit that moved each face last
 };
 
 }  // namespace footwall::ui

@@ -87,10 +87,10 @@ struct LiveColours::Session {
   std::uint64_t answered = 0;  // guarded by mutex_
   std::uint64_t engine_edit = 0;
   // Guarded by mutex_, by the engine's number of an edit: our number where it told all there was, and the
-  // faults that it told with our number of each.
+  // faults that it told.
   std::map<std::uint64_t, std::uint64_t> ours;
-  std::map<std::uint64_t, std::map<Id, std::uint64_t>> batches;
-  std::map<Id, std::uint64_t> known;  // of what was answered, our number of each fault
+  std::map<std::uint64_t, std::map<Id, std::shared_ptr<const FaultSurface>>> batches;
+  std::map<Id, std::shared_ptr<const FaultSurface>> known;  // of what was answered
 };
 
 LiveColours::LiveColours(std::optional<service::Connection> connection, int ranks, Events events)
@@ -139,7 +139,7 @@ std::uint64_t LiveColours::put(const std::shared_ptr<const FaultSurface>& surfac
   {
     const std::scoped_lock lock(mutex_);
     edit = ++edit_;
-    surfaces_[surface->fault] = {surface, edit};
+    surfaces_[surface->fault] = surface;
     dirty_.insert(surface->fault);
     put_last(offsets_due_, surface->fault);
     offsets_job_.cancel();
@@ -244,7 +244,7 @@ bool LiveColours::has_work() const {
 
 bool LiveColours::may_ask_offsets(const Session& session) const {
   return !offsets_due_.empty() && !has_work() && session.answered >= session.sent &&
-         std::ranges::none_of(surfaces_, [](const auto& entry) { return entry.second.surface->provisional; });
+         std::ranges::none_of(surfaces_, [](const auto& entry) { return entry.second->provisional; });
 }
 
 void LiveColours::ask_offsets(service::EngineClient& client, const std::string& volume, Session& session,
@@ -259,7 +259,7 @@ void LiveColours::ask_offsets(service::EngineClient& client, const std::string& 
   const JobContext job = offsets_job_;
   EngineNumbers numbers;
   numbers.edit = edit_;  // all of it has been told and answered
-  numbers.known[fault] = session.known[fault];
+  numbers.computed_on[fault] = surface;
   lock.unlock();
   v1::ExtractRequest request;
   request.set_volume(volume);
@@ -328,10 +328,11 @@ void LiveColours::serve(service::EngineClient& client) {
         numbers.edit = found == session->ours.begin() ? 0 : std::prev(found)->second;
         session->ours.erase(session->ours.begin(), found == session->ours.begin() ? found : std::prev(found));
         while (!session->batches.empty() && session->batches.begin()->first <= reply.edit()) {
-          for (const auto& [fault, edit] : session->batches.begin()->second) session->known[fault] = edit;
+          for (auto& [fault, surface] : session->batches.begin()->second)
+            session->known[fault] = std::move(surface);
           session->batches.erase(session->batches.begin());
         }
-        for (const Id fault : numbers.faults) numbers.known[fault] = session->known[fault];
+        for (const Id fault : numbers.faults) numbers.computed_on[fault] = session->known[fault];
       }
       if (reply.has_failure()) events_.failed(reply.failure().message(), reply.failure().hint());
       events_.numbers(std::move(numbers));
@@ -364,14 +365,14 @@ void LiveColours::serve(service::EngineClient& client) {
       if (!has_work() || session->answered < session->sent) continue;
       v1::EditBatch batch;
       std::size_t faces = 0;
-      std::map<Id, std::uint64_t> told_now;
+      std::map<Id, std::shared_ptr<const FaultSurface>> told_now;
       while (!dirty_.empty() && faces < kFacesInBatch) {
         const Id fault = *dirty_.begin();
         dirty_.erase(dirty_.begin());
         const auto now = surfaces_.find(fault);
         auto& told = session->told[fault];
-        const auto next = now == surfaces_.end() ? nullptr : now->second.surface;
-        if (next != nullptr) told_now[fault] = now->second.edit;
+        const auto next = now == surfaces_.end() ? nullptr : now->second;
+        told_now[fault] = next;
         faces += append_edits(fault, told.get(), next.get(), batch);
         told = next;
       }

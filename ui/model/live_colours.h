@@ -81,11 +81,7 @@ class LiveColours {
   bool ends_ = false;
   bool wanted_ = false;  // the engine is to run
   std::optional<EngineVolume> volume_;
-  struct Put {
-    std::shared_ptr<const FaultSurface> surface;
-    std::uint64_t edit = 0;
-  };
-  std::map<Id, Put> surfaces_;
+  std::map<Id, std::shared_ptr<const FaultSurface>> surfaces_;
   std::set<Id> dirty_;           // to be told; those not among surfaces_ are to go
   std::vector<Id> offsets_due_;  // faults whose offsets are not known; the one that changed last at the end
   JobContext offsets_job_;       // of those under way

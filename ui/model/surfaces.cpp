@@ -167,7 +167,6 @@ struct Surfaces::State {
     if (engine == nullptr || fault == 0) return;
     if (entry.surface != nullptr) {
       entry.edit = engine->put_fault(entry.surface);
-      entry.values.tell_moved(entry.edit);
     } else {
       engine->remove_fault(fault);
       entry.edit = 0;
@@ -189,10 +188,11 @@ struct Surfaces::State {
     for (const auto& [fault, of_fault] : rows) {
       changed.insert(fault);
       const auto found = entries.find(fault);
-      const auto known = answer.known.find(fault);
-      if (found == entries.end() || known == answer.known.end()) continue;
+      const auto computed_on = answer.computed_on.find(fault);
+      if (found == entries.end() || computed_on == answer.computed_on.end() || computed_on->second == nullptr)
+        continue;
       found->second.values.take(answer.panels, answer.face_numbers, answer.statistics, of_fault,
-                                known->second);
+                                *computed_on->second);
     }
     for (const Id fault : changed) {
       const auto found = entries.find(fault);

@@ -162,6 +162,23 @@ void Marks::draw(Gl& gl, const Pass& pass, const SpriteBatch& sprites) {
   draw_instances(gl, sprite_layout_, sprites.buffer(), sizeof(SpriteInstance), sprites.count());
 }
 
+Sprite selecting_sprite(const QPolygonF& region, const QColor& accent, double pixel) {
+  const QRect box = region.boundingRect().toAlignedRect().adjusted(-2, -2, 2, 2);
+  QImage image(box.size() * pixel, QImage::Format_RGBA8888_Premultiplied);
+  image.setDevicePixelRatio(pixel);
+  image.fill(0);
+  QColor ground = accent;
+  ground.setAlphaF(0.12F);
+  QPainter painter(&image);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.translate(-box.topLeft());
+  painter.setPen(QPen(accent, 1, Qt::DashLine));
+  painter.setBrush(ground);
+  painter.drawPolygon(region);
+  painter.end();
+  return {image, {static_cast<float>(box.left()), static_cast<float>(box.top()), 0}, {}, true};
+}
+
 QImage text_image(const QString& text, const QFont& font, const QColor& colour, const QColor& halo,
                   double pixel) {
   const QFontMetricsF metrics(font);

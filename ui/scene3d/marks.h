@@ -3,6 +3,7 @@
 #include <QColor>
 #include <QHash>
 #include <QImage>
+#include <QPolygonF>
 #include <vector>
 
 #include "ui/scene3d/gl.h"
@@ -33,6 +34,9 @@ struct Sprite {
   QPointF off;
   bool flat = false;
 };
+
+// The box or lasso that is being drawn, in pixels from the upper left corner.
+Sprite selecting_sprite(const QPolygonF& region, const QColor& accent, double pixel);
 
 // Marks as they were last set.
 template <class Mark>

@@ -56,6 +56,7 @@ void SceneDrawing::release() {
   for (auto& [name, texture] : colour_tables_) gl.glDeleteTextures(1, &texture);
   colour_tables_.clear();
   for (auto* batch : {&box_, &pillars_, &loose_lines_, &over_lines_, &hover_lines_}) batch->release(gl);
+  selecting_sprite_.release(gl);
   for (auto* batch : {&nodes_, &loose_dots_, &hover_dots_}) batch->release(gl);
   labels_.release(gl);
   flat_sprites_.release(gl);
@@ -225,6 +226,11 @@ void SceneDrawing::isosurfaces_changed() {
     if (!is_wanted(id)) shapes_to_upload_[id] = nullptr;
   }
   content_changed();
+}
+
+void SceneDrawing::set_selecting(const QPolygonF& region) {
+  selecting_ = region;
+  selecting_old_ = true;
 }
 
 void SceneDrawing::set_loose_plane(Id plane) {

@@ -2,6 +2,7 @@
 // context current.
 #pragma once
 #include <QFont>
+#include <QPolygonF>
 #include <optional>
 #include <set>
 
@@ -57,7 +58,8 @@ class SceneDrawing {
   void put_shape(std::shared_ptr<const IsosurfaceShape> shape);
   void drop_shape(Id isosurface);
   void isosurfaces_changed();
-  void flat_changed() { flat_old_ = true; }  // what lies flat on the scene
+  void flat_changed() { flat_old_ = true; }     // what lies flat on the scene
+  void set_selecting(const QPolygonF& region);  // the box or lasso under the mouse, in pixels; may be empty
   void set_loose_plane(Id plane);
   void set_hot_plane(Id plane);  // whose frame is hovered or dragged
   bool has_mouse = false;        // the mouse is in this view
@@ -139,6 +141,7 @@ class SceneDrawing {
   void draw_loose(const Pass& pass);
   void draw_over(const Pass& pass);
   void draw_hover(const Pass& pass);
+  void draw_flat(const Pass& pass);  // colour bar, arrow, the region under the mouse
   void begin(GLuint target, const Pass& pass);
   void copy(const GlTarget& from, GLuint to, GLbitfield what);
   FaceColouring colouring_of(Id fault) const;
@@ -171,7 +174,7 @@ class SceneDrawing {
   mutable std::map<QString, GLuint> colour_tables_;
   MarkBatch<Line> box_, pillars_, loose_lines_, over_lines_, hover_lines_;
   MarkBatch<Dot> nodes_, loose_dots_, hover_dots_;
-  SpriteBatch labels_, flat_sprites_;
+  SpriteBatch labels_, flat_sprites_, selecting_sprite_;
   TextImages texts_;
 
   std::set<Id> meshes_to_upload_, numbers_to_upload_;
@@ -181,7 +184,9 @@ class SceneDrawing {
   std::map<Id, std::shared_ptr<const VoxelBricks>> voxels_to_upload_;
   std::map<Id, std::shared_ptr<const IsosurfaceShape>> shapes_to_upload_;  // null: to go
   std::optional<std::pair<std::shared_ptr<const Picture>, render::Matrix4>> picture_to_upload_;
-  bool static_marks_old_ = true, camera_marks_old_ = true, loose_marks_old_ = true, flat_old_ = true;
+  bool static_marks_old_ = true, camera_marks_old_ = true, loose_marks_old_ = true, flat_old_ = true,
+       selecting_old_ = false;
+  QPolygonF selecting_;
   std::optional<std::pair<double, double>> range_;
   std::optional<ColourBar> bar_;
   bool range_old_ = true;  // range_ and bar_ are

@@ -216,8 +216,7 @@ void SceneDrawing::paint_small(GLuint framebuffer, const Pass& pass, int side) {
   begin(framebuffer, pass);
   gl_->glDisable(GL_DEPTH_TEST);
   marks_.draw(*gl_, pass, labels_);
-  if (std::exchange(flat_old_, false)) refresh_flat(view_, texts_, pixel_, true);
-  marks_.draw(*gl_, pass, flat_sprites_);
+  draw_flat(pass);
 }
 
 void SceneDrawing::draw_loose(const Pass& pass) {
@@ -356,10 +355,20 @@ void SceneDrawing::paint(GLuint framebuffer) {
   }
   marks_.draw(*gl_, pass, over_lines_, false, Marks::kLift);
   draw_hover(pass);
-  if (std::exchange(flat_old_, false)) refresh_flat(view_, texts_, pixel_, true);
-  marks_.draw(*gl_, pass, flat_sprites_);
+  draw_flat(pass);
   copy(frame_target_, framebuffer, GL_COLOR_BUFFER_BIT);
   gl_->glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+}
+
+void SceneDrawing::draw_flat(const Pass& pass) {
+  if (std::exchange(flat_old_, false)) refresh_flat(view_, texts_, pixel_, true);
+  if (std::exchange(selecting_old_, false)) {
+    std::vector<Sprite> sprites;
+    if (selecting_.size() > 1) sprites.push_back(selecting_sprite(selecting_, colours_.accent, pixel_));
+    selecting_sprite_.set(*gl_, sprites);
+  }
+  marks_.draw(*gl_, pass, flat_sprites_);
+  marks_.draw(*gl_, pass, selecting_sprite_);
 }
 
 void SceneDrawing::draw_hover(const Pass& pass) {

@@ -250,7 +250,7 @@ bool SceneView::event(QEvent* event) {
       return true;
     }
   }
-  return QOpenGLWidget::event(event);
+  return GlWidget::event(event);
 }
 
 void SceneView::keyPressEvent(QKeyEvent* event) {
@@ -262,7 +262,7 @@ void SceneView::keyPressEvent(QKeyEvent* event) {
   }
   if (d.workbench.picking.key_press(event->key(), event->modifiers())) return;
   if (event->modifiers() != Qt::NoModifier && event->modifiers() != Qt::KeypadModifier) {
-    return QOpenGLWidget::keyPressEvent(event);
+    return GlWidget::keyPressEvent(event);
   }
   Display& display = d.workbench.display;
   constexpr double kKeyPixels = 25;  // of a mouse that would do the same
@@ -291,13 +291,13 @@ void SceneView::keyPressEvent(QKeyEvent* event) {
       d.drawing.camera.zoom(event->key() == Qt::Key_Plus ? 0.85 : 1 / 0.85, d.drawing.camera.target());
       return d.camera_moved();
     default:
-      return QOpenGLWidget::keyPressEvent(event);
+      return GlWidget::keyPressEvent(event);
   }
 }
 
 void SceneView::keyReleaseEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Space && !event->isAutoRepeat()) d_->space_held = false;
-  if (!d_->workbench.picking.key_release(event->key())) QOpenGLWidget::keyReleaseEvent(event);
+  if (!d_->workbench.picking.key_release(event->key())) GlWidget::keyReleaseEvent(event);
 }
 
 void SceneView::leaveEvent(QEvent* event) {
@@ -307,7 +307,7 @@ void SceneView::leaveEvent(QEvent* event) {
   d_->workbench.selection.hover({});
   if (d_->mouse != Private::Mouse::kPlane) d_->drawing.set_hot_plane(0);
   update();
-  QOpenGLWidget::leaveEvent(event);
+  GlWidget::leaveEvent(event);
 }
 
 }  // namespace footwall::ui

@@ -6,7 +6,6 @@
 
 #include "ui/model/face_voxels.h"
 #include "ui/scene3d/scene_drawing.h"
-#include "ui/scene3d/selecting_overlay.h"
 
 namespace footwall::ui {
 
@@ -21,7 +20,6 @@ struct SceneView::Private {
   FaceVoxels voxels;
   SceneDrawing drawing;
   Gl gl;
-  QString problem;
   QTimer work_timer;  // slices of work while there is any
   QTimer rest_timer;  // the camera stands still
   QTimer fine_timer;  // nothing has changed for a while
@@ -54,7 +52,6 @@ struct SceneView::Private {
   bool lasso = false;  // else a box
   bool space_held = false;
   QPolygonF selecting;  // box or lasso under way, in pixels
-  SelectingOverlay* overlay = nullptr;
 
   void connect_models();
   void take_style();
@@ -77,7 +74,6 @@ struct SceneView::Private {
   // frame costs as much as all the rest of a drag.
   void changed_soon();
   void do_work();
-  void forget_gl();
   QSizeF size() const { return QSizeF(view.size()); }
 
   // Pointing.

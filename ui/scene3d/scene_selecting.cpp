@@ -22,13 +22,14 @@ void SceneView::Private::extend_selecting(const QPointF& at) {
   } else {
     selecting = QPolygonF(QRectF(pressed_at, at).normalized());
   }
-  if (overlay == nullptr) overlay = new SelectingOverlay(&view);
-  overlay->show_region(selecting);
+  drawing.set_selecting(selecting);
+  view.update();
 }
 
 void SceneView::Private::stop_selecting() {
   selecting.clear();
-  if (overlay != nullptr) overlay->hide();
+  drawing.set_selecting(selecting);
+  view.update();
 }
 
 double SceneView::Private::depth_at(const QPointF& pixel, const render::Camera& camera) const {

@@ -1,7 +1,7 @@
 #include "ui/scene3d/scene_view.h"
 
-#include <QPainter>
 #include <QPalette>
+#include <QResizeEvent>
 #include <algorithm>
 #include <cmath>
 
@@ -22,14 +22,8 @@ using render::Vec3;
 }  // namespace
 
 SceneView::SceneView(Workbench& workbench, QWidget* parent)
-    : QOpenGLWidget(parent), d_(std::make_unique<Private>(*this, workbench)) {
+    : GlWidget(parent), d_(std::make_unique<Private>(*this, workbench)) {
   load_shaders();
-  QSurfaceFormat wanted;
-  wanted.setRenderableType(QSurfaceFormat::OpenGL);
-  wanted.setVersion(4, 5);
-  wanted.setProfile(QSurfaceFormat::CoreProfile);
-  wanted.setDepthBufferSize(24);
-  setFormat(wanted);
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
   setMinimumSize(120, 90);
@@ -55,7 +49,10 @@ SceneView::SceneView(Workbench& workbench, QWidget* parent)
 }
 
 SceneView::~SceneView() {
-  d_->forget_gl();
+  if (!d_->drawing.is_built()) return;
+  make_current();
+  d_->drawing.release();
+  done_current();
 }
 
 void SceneView::set_source(SceneSource source) {
@@ -114,7 +111,7 @@ void SceneView::Private::do_work() {
     const bool was_shown = drawing.has_front();
     const bool was_fine = drawing.is_fine();
     const std::uint64_t layers = drawing.counters.layers;
-    view.makeCurrent();
+    view.make_current();
     bool more = false;
     QElapsedTimer clock;
     clock.start();
@@ -123,7 +120,7 @@ void SceneView::Private::do_work() {
     } catch (const Error& error) {
       log::warn("the scene could not be drawn: " + error.message());
     }
-    view.doneCurrent();
+    view.done_current();
     double& longest = drawing.counters.longest_slice_ms;
     longest = std::max(longest, static_cast<double>(clock.nsecsElapsed()) / 1e6);
     if (layers != drawing.counters.layers || was_shown != drawing.has_front() ||
@@ -142,45 +139,36 @@ void SceneView::Private::do_work() {
 
 bool SceneView::is_settled() const {
   const Private& d = *d_;
-  if (!d.problem.isEmpty()) return true;
+  if (!problem().isEmpty()) return true;
   return d.drawing.is_built() && d.voxels.is_settled() && d.drawing.shape_share == 1 &&
          !d.rest_timer.isActive() && !d.fine_timer.isActive() && !d.soon_timer.isActive() &&
          !d.drawing.has_work();
 }
 
-void SceneView::initializeGL() {
+QString SceneView::start_gl() {
   Private& d = *d_;
-  d.problem.clear();
   if (!d.gl.initializeOpenGLFunctions()) {
-    d.problem =
-        tr("The scene needs OpenGL 4.5, and this screen offers %1.%2. Start with LIBGL_ALWAYS_SOFTWARE=1.")
-            .arg(context()->format().majorVersion())
-            .arg(context()->format().minorVersion());
-    return;
+    const QSurfaceFormat offered = QOpenGLContext::currentContext()->format();
+    return tr("The scene needs OpenGL 4.5, and this screen offers %1.%2. Start with LIBGL_ALWAYS_SOFTWARE=1.")
+        .arg(offered.majorVersion())
+        .arg(offered.minorVersion());
   }
   try {
     d.drawing.build(d.gl);
   } catch (const Error& error) {
-    d.problem = QString::fromStdString(error.message());
-    return;
+    return QString::fromStdString(error.message());
   }
-  // The widget may get another context when it moves to another window.
-  connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] { d_->forget_gl(); });
   d.ask_for_samples();
   d.give_what_is_there();
   d.changed();
+  return {};
 }
 
-void SceneView::Private::forget_gl() {
-  if (!drawing.is_built()) return;
-  view.makeCurrent();
-  drawing.release();
-  view.doneCurrent();
-  asked.clear();
-}
-
-void SceneView::resizeGL(int width, int height) {
+void SceneView::resizeEvent(QResizeEvent* event) {
   Private& d = *d_;
+  GlWidget::resizeEvent(event);
+  const int width = event->size().width();
+  const int height = event->size().height();
   d.drawing.set_view(QSizeF(width, height));
   d.take_style();
   if (!d.fitted && width > 20 && height > 20) {
@@ -195,21 +183,13 @@ void SceneView::resizeGL(int width, int height) {
   d.camera_moved();
 }
 
-void SceneView::paintGL() {
+void SceneView::paint_gl(GLuint framebuffer) {
   Private& d = *d_;
-  if (!d.problem.isEmpty()) {
-    QPainter painter(this);
-    painter.fillRect(rect(), palette().color(QPalette::Window));
-    painter.setPen(palette().color(QPalette::WindowText));
-    painter.drawText(rect().adjusted(16, 16, -16, -16), Qt::AlignCenter | Qt::TextWordWrap, d.problem);
-    return;
-  }
   if (!d.drawing.is_built()) return;
   try {
-    d.drawing.paint(defaultFramebufferObject());
+    d.drawing.paint(framebuffer);
   } catch (const Error& error) {
-    d.problem = QString::fromStdString(error.message());
-    update();
+    show_problem(QString::fromStdString(error.message()));
   }
   if (d.drawing.has_work() && !d.work_timer.isActive()) d.work_timer.start();
 }
@@ -220,7 +200,7 @@ void SceneView::changeEvent(QEvent* event) {
     d_->drawing.camera_moved();
     d_->changed();
   }
-  QOpenGLWidget::changeEvent(event);
+  GlWidget::changeEvent(event);
 }
 
 void SceneView::fit() {
@@ -269,10 +249,6 @@ const SceneCounters& SceneView::counters() const {
 
 void SceneView::reset_counters() {
   d_->drawing.counters = {};
-}
-
-QString SceneView::problem() const {
-  return d_->problem;
 }
 
 QString SceneView::camera_text() const {
@@ -325,8 +301,8 @@ bool SceneView::set_camera_text(const QString& text) {
 QImage SceneView::picture(const QSize& size, double scale, QString* problem) {
   constexpr int kLargest = 16384;
   problem->clear();
-  if (!d_->problem.isEmpty() || !d_->drawing.is_built()) {
-    *problem = d_->problem.isEmpty() ? tr("The scene has not been shown yet.") : d_->problem;
+  if (!this->problem().isEmpty() || !d_->drawing.is_built()) {
+    *problem = GlWidget::problem().isEmpty() ? tr("The scene has not been shown yet.") : GlWidget::problem();
     return {};
   }
   if (size.width() < 1 || size.height() < 1 || size.width() > kLargest || size.height() > kLargest ||
@@ -334,14 +310,14 @@ QImage SceneView::picture(const QSize& size, double scale, QString* problem) {
     *problem = tr("A picture has 1 to %1 pixels each way.").arg(kLargest);
     return {};
   }
-  makeCurrent();
+  make_current();
   QImage image;
   try {
     image = d_->drawing.picture(size, scale);
   } catch (const Error& error) {
     *problem = QString::fromStdString(error.message());
   }
-  doneCurrent();
+  done_current();
   d_->changed();
   return image;
 }

@@ -6,11 +6,11 @@
 // that picture, the fault being edited and the plane being moved, or, while the camera moves, a coarse scene
 // of a bounded number of triangles.
 #pragma once
-#include <QOpenGLWidget>
 #include <functional>
 #include <memory>
 
 #include "ui/model/workbench.h"
+#include "ui/scene3d/gl_widget.h"
 #include "ui/scene3d/orbit_camera.h"
 
 namespace footwall::ui {
@@ -37,7 +37,7 @@ struct SceneCounters {
   double longest_slice_ms = 0;        // of work between events
 };
 
-class SceneView final : public QOpenGLWidget {
+class SceneView final : public GlWidget {
   Q_OBJECT
 
  public:
@@ -78,8 +78,6 @@ class SceneView final : public QOpenGLWidget {
   void reset_counters();
   // Nothing is left to upload or to draw finer.
   bool is_settled() const;
-  // Why there is no scene (no OpenGL 4.5); empty where there is one.
-  QString problem() const;
   void set_source(SceneSource source);
 
  Q_SIGNALS:
@@ -87,9 +85,9 @@ class SceneView final : public QOpenGLWidget {
   void settled();
 
  protected:
-  void initializeGL() override;
-  void resizeGL(int width, int height) override;
-  void paintGL() override;
+  QString start_gl() override;
+  void paint_gl(GLuint framebuffer) override;
+  void resizeEvent(QResizeEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;

@@ -11,7 +11,6 @@
 #include <QLabel>
 #include <QMenuBar>
 #include <QMimeData>
-#include <QOpenGLWidget>
 #include <QStatusBar>
 #include <QTimer>
 #include <QVBoxLayout>
@@ -43,6 +42,7 @@ constexpr survey::Index kDemoSize{256, 256, 256};
 constexpr std::uint64_t kDemoSeed = 7;
 constexpr double kDemoSignalToNoise = 4;
 constexpr int kFollowAfterMs = 200;
+constexpr int kStoreLookMs = 3000;
 constexpr int kMenuPadding = 8;
 
 // Nothing where the project cannot tell: the window then looks as for a new one.
@@ -61,8 +61,6 @@ QJsonObject stored_look(const Document& document) {
 MainWindow::MainWindow(const EngineLink::Options& engine, QWidget* parent)
     : QMainWindow(parent), engine_(engine), start_jobs_(new Jobs(this)) {
   setAcceptDrops(true);
-  // Else the first scene, which draws with OpenGL, would make the window anew on the screen.
-  if (built_views().scene) (new QOpenGLWidget(this))->hide();
   setDockNestingEnabled(true);
   setContextMenuPolicy(Qt::NoContextMenu);
   actions_ = new Actions(*this);
@@ -98,6 +96,13 @@ MainWindow::MainWindow(const EngineLink::Options& engine, QWidget* parent)
   follow_->setSingleShot(true);
   follow_->setInterval(kFollowAfterMs);
   connect(follow_, &QTimer::timeout, this, &MainWindow::follow_changes);
+  // An editor that is killed keeps its views and cameras, too.
+  auto* keep_look = new QTimer(this);
+  connect(keep_look, &QTimer::timeout, this, [this] {
+    // A job that stores what it made would make the window wait.
+    if (workbench_ && workbench_->jobs.running() == 0) store_look();
+  });
+  keep_look->start(kStoreLookMs);
   connect(start_jobs_, &Jobs::running_changed, actions_, &Actions::refresh);
   connect(start_jobs_, &Jobs::finished, this,
           [this](int, Jobs::State state, const QString& message, const QString& hint) {
@@ -187,6 +192,7 @@ void MainWindow::show_start_page() {
 
 void MainWindow::show_workbench() {
   const QJsonObject look = stored_look(workbench_->document);
+  look_stored_ = {};
   views_ = new ViewArea(*workbench_, built_views(), look["views"].toObject(), middle_);
   connect(views_, &ViewArea::active_changed, actions_, &Actions::refresh);
   put_in_middle(views_);
@@ -391,6 +397,7 @@ void MainWindow::store_look() {
   if (!workbench_ || views_ == nullptr || workbench_->document.read_only()) return;
   QJsonObject look = docks_->look();
   look["views"] = views_->layout();
+  if (std::exchange(look_stored_, look) == look) return;
   try {
     workbench_->document.store().set_setting(
         kWindowSetting, QJsonDocument(look).toJson(QJsonDocument::Compact).toStdString());

@@ -1,6 +1,7 @@
 // The one window: menu, tool bar, docks, tiled views, status line. With a project it shows that, without one
 // the start page.
 #pragma once
+#include <QJsonObject>
 #include <QMainWindow>
 #include <memory>
 #include <vector>
@@ -92,6 +93,7 @@ class MainWindow final : public QMainWindow {
   QFileSystemWatcher* watcher_ = nullptr;
   QTimer* follow_ = nullptr;
   bool section_failed_ = false;
+  QJsonObject look_stored_;
 };
 
 }  // namespace footwall::ui

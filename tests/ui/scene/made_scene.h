@@ -165,7 +165,7 @@ class MadeScene {
   }
   // What the window shows; kept in the folder FOOTWALL_PICTURES where that is set.
   QImage grabbed(const QString& name) const {
-    const QImage image = view->grabFramebuffer().convertToFormat(QImage::Format_RGB32);
+    const QImage image = view->grab_frame().convertToFormat(QImage::Format_RGB32);
     const QString folder = qEnvironmentVariable("FOOTWALL_PICTURES");
     if (!folder.isEmpty()) image.save(QDir(folder).filePath(name + QStringLiteral(".png")));
     return image;

@@ -37,6 +37,7 @@ class SceneTest final : public QObject {
   void survives_another_window();
   void forgets_deleted_faults();
   void shows_the_light_theme_and_no_survey();
+  void the_screen_has_what_is_drawn();
 };
 
 void SceneTest::shows_faults_planes_and_box() {
@@ -278,12 +279,46 @@ void SceneTest::shows_the_light_theme_and_no_survey() {
   view.resize(500, 400);
   view.show();
   QVERIFY(QTest::qWaitFor([&] { return view.is_settled(); }, 20000));
-  const QImage empty = view.grabFramebuffer().convertToFormat(QImage::Format_RGB32);
+  const QImage empty = view.grab_frame().convertToFormat(QImage::Format_RGB32);
   const QString pictures = qEnvironmentVariable("FOOTWALL_PICTURES");
   if (!pictures.isEmpty()) empty.save(QDir(pictures).filePath("empty.png"));
   QImage background(empty.size(), QImage::Format_RGB32);
   background.fill(empty.pixelColor(250, 200));
   QVERIFY(differing(empty, background, 60) > 100);  // it says what to do
+}
+
+// The inner window shows the scene, also after another size, and a picture of the widget has it, too; the box
+// under the mouse lies over it.
+void SceneTest::the_screen_has_what_is_drawn() {
+  MadeScene scene;
+  SceneView& view = *scene.view;
+  const auto on_screen = [&] {
+    QTest::qWait(100);  // until the server has put it there
+    const QPoint corner = view.mapToGlobal(QPoint(0, 0));
+    return view.screen()
+        ->grabWindow(0, corner.x(), corner.y(), view.width(), view.height())
+        .toImage()
+        .convertToFormat(QImage::Format_RGB32);
+  };
+  for (const QSize& size : {QSize(900, 700), QSize(640, 500)}) {
+    view.resize(size);
+    QTest::qWait(50);
+    QVERIFY(scene.settle());
+    const QImage drawn = scene.grabbed("drawn");
+    QCOMPARE(drawn.size(), size);
+    QVERIFY(differing(on_screen(), drawn) < 50);
+    QVERIFY(differing(view.grab().toImage().convertToFormat(QImage::Format_RGB32), drawn) < 50);
+  }
+  const QImage before = on_screen();
+  QTest::mousePress(&view, Qt::LeftButton, {}, {4, 4});
+  QTest::mouseMove(&view, {60, 50});
+  QTest::mouseMove(&view, {204, 104});
+  const QImage with_box = on_screen();
+  QVERIFY(before.pixel(120, 60) != with_box.pixel(120, 60));
+  QCOMPARE(before.pixel(400, 300), with_box.pixel(400, 300));
+  QTest::mouseRelease(&view, Qt::LeftButton, {}, {204, 104});
+  QVERIFY(scene.settle());
+  QVERIFY(differing(before, on_screen()) < 50);
 }
 
 static const RegisterTest<SceneTest> kRegistered;

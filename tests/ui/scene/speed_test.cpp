@@ -32,7 +32,7 @@ void SpeedTest::a_mouse_move_draws_what_moves() {
   const auto frame_ms = [&] {
     QElapsedTimer clock;
     clock.start();
-    scene.view->grabFramebuffer();
+    scene.view->grab_frame();
     return static_cast<double>(clock.nsecsElapsed()) / 1e6;
   };
 

@@ -40,7 +40,7 @@ class StudioKillTest(unittest.TestCase):
         end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
             self.assertIsNone(studio.poll(), "the editor ended by itself")
-            found = xdotool("search", "--onlyvisible", "--pid", studio.pid).stdout.split()
+            found = xdotool("search", "--onlyvisible", "--all", "--pid", studio.pid, "--name", "Footwall").stdout.split()
             if found:
                 return found[-1]
             time.sleep(0.2)
