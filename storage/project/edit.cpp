@@ -1,4 +1,6 @@
 // The one way in which an interpretation changes, and the way back.
+#include <fmt/format.h>
+
 #include "storage/base/error.h"
 #include "storage/base/log.h"
 #include "storage/project/detail/edit_state.h"
@@ -62,6 +64,26 @@ std::optional<std::string> Project::undo() {
 
 std::optional<std::string> Project::redo() {
   return state_->write([&] { return detail::UndoLog(*state_->database).redo(); });
+}
+
+std::int64_t Project::go_to_step(std::int64_t step, const JobContext& job) {
+  return state_->write([&] {
+    detail::UndoLog log(*state_->database);
+    std::int64_t undos = 0, redos = 0;
+    for (const HistoryStep& one : log.steps(0)) {
+      if (one.id > step && !one.undone) ++undos;
+      if (one.id <= step && one.undone) ++redos;
+    }
+    const std::int64_t all = undos + redos;
+    std::int64_t taken = 0;
+    const auto tell = [&] {
+      job.report(static_cast<double>(taken) / static_cast<double>(all), "history",
+                 fmt::format("{} of {} steps", taken, all));
+    };
+    for (; undos > 0 && log.undo(); --undos) ++taken, tell();
+    for (; redos > 0 && log.redo(); --redos) ++taken, tell();
+    return taken;
+  });
 }
 
 HistorySize Project::history_size(const std::optional<std::string>& before) const {

@@ -262,6 +262,7 @@ Project Project::beside() const {
   state->file_system = state_->file_system;
   state->access = state_->access;
   state->lock = state_->lock;
+  state->turn = state_->turn;
   state->lost = state_->lost;
   state->version = state_->version;
   state->migrations = state_->migrations;

@@ -66,8 +66,8 @@ class Project {
   // Closes; errors are logged. close() throws them.
   ~Project();
   // Another connection to the same file, for another thread of this program: it sees what is committed, and
-  // writes under the same lock where this one may. One transaction at a time: whoever comes second waits for
-  // up to 5 s, then gets kHeld. A program must not open() a project twice instead: looking at the file closes
+  // writes under the same lock where this one may. One transaction at a time: whoever comes second waits
+  // until the first has ended. A program must not open() a project twice instead: looking at the file closes
   // it again, and with that the process loses the POSIX locks that keep other programs from ending SQLite's
   // log. Throws what open() throws for a file that is gone.
   Project beside() const;
@@ -129,6 +129,9 @@ class Project {
   // The step's name; nothing when there is no step (left).
   std::optional<std::string> undo();
   std::optional<std::string> redo();
+  // Takes back all later steps, or brings back this one and all before it, in one transaction; a barrier ends
+  // it. Cancelled it changes nothing. Returns how many steps it took.
+  std::int64_t go_to_step(std::int64_t step, const JobContext& job);
   // Oldest first; those of this number and later ones.
   std::vector<HistoryStep> history(std::int64_t first = 0) const;
   // Steps of the history and the bytes of what they hold; of those alone that trim_history(before) would

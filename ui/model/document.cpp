@@ -104,11 +104,10 @@ bool Document::edit(const QString& name, const std::function<void(project::Inter
   return changed;
 }
 
-bool Document::step(std::int64_t undos, std::int64_t redos) {
+bool Document::step(bool (Document::*one)()) {
   bool stepped = false;
   try {
-    for (; undos > 0 && take_back(); --undos) stepped = true;
-    for (; redos > 0 && bring_back(); --redos) stepped = true;
+    stepped = (this->*one)();
   } catch (const Error& error) {
     report(error);
   }
@@ -145,20 +144,23 @@ bool Document::bring_back() {
 }
 
 bool Document::undo() {
-  return step(1, 0);
+  return step(&Document::take_back);
 }
 
 bool Document::redo() {
-  return step(0, 1);
+  return step(&Document::bring_back);
 }
 
 bool Document::go_to_step(Id id) {
-  const auto is_later = [&](const project::HistoryStep& one) { return one.id > id; };
-  const auto undos =
-      std::ranges::count_if(history_, [&](const auto& one) { return is_later(one) && !one.undone; });
-  const auto redos =
-      std::ranges::count_if(history_, [&](const auto& one) { return !is_later(one) && one.undone; });
-  return step(undos, redos);
+  std::int64_t taken = 0;
+  try {
+    taken = project_.go_to_step(id, JobContext());
+    if (taken > 0) history_ = project_.history();
+  } catch (const Error& error) {
+    report(error);
+  }
+  if (taken > 0) follow_change();
+  return taken > 0;
 }
 
 void Document::set_velocity(double velocity) {

@@ -69,8 +69,8 @@ class Document final : public QObject {
   bool edit(const QString& name, const std::function<void(project::Interpretation&)>& change);
   bool undo();
   bool redo();
-  // To the state after the step of this number (0: before the first), by as many undos or redos as it takes.
-  // Where one of them is refused, those before it stay done.
+  // To the state after the step of this number (0: before the first), in one transaction. Many steps take
+  // their time: history_jump.h.
   bool go_to_step(Id step);
 
   // Reads again what others may have changed: for a project that somebody else writes, or a job of this
@@ -105,7 +105,7 @@ class Document final : public QObject {
   void reload_interpretation(std::map<Id, Fault> already = {});
   void follow_change();
   void report(const Error& error);
-  bool step(std::int64_t undos, std::int64_t redos);
+  bool step(bool (Document::*one)());
   bool take_back();
   bool bring_back();
 

@@ -3,6 +3,8 @@
 #include <QPainter>
 #include <QStyledItemDelegate>
 
+#include "ui/model/history_jump.h"
+
 namespace footwall::ui {
 namespace {
 
@@ -47,8 +49,8 @@ class Step final : public QStyledItemDelegate {
 
 }  // namespace
 
-HistoryPanel::HistoryPanel(Document& document, QWidget* parent) : QListView(parent), document_(document) {
-  list_ = new HistoryList(document_, this);
+HistoryPanel::HistoryPanel(Workbench& workbench, QWidget* parent) : QListView(parent), workbench_(workbench) {
+  list_ = new HistoryList(workbench_.document, this);
   setModel(list_);
   setItemDelegate(new Step(this));
   setFrameShape(QFrame::NoFrame);
@@ -64,8 +66,9 @@ HistoryPanel::HistoryPanel(Document& document, QWidget* parent) : QListView(pare
 }
 
 void HistoryPanel::go_to(const QModelIndex& index) {
-  if (!index.isValid() || index.data(HistoryList::kCurrent).toBool() || document_.read_only()) return;
-  document_.go_to_step(index.data(HistoryList::kStep).toLongLong());
+  if (!index.isValid() || index.data(HistoryList::kCurrent).toBool() || workbench_.document.read_only())
+    return;
+  jump_to_step(workbench_, index.data(HistoryList::kStep).toLongLong());
 }
 
 void HistoryPanel::resizeEvent(QResizeEvent* event) {

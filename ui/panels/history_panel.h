@@ -3,6 +3,7 @@
 #include <QListView>
 
 #include "ui/model/history_list.h"
+#include "ui/model/workbench.h"
 
 namespace footwall::ui {
 
@@ -10,7 +11,7 @@ class HistoryPanel final : public QListView {
   Q_OBJECT
 
  public:
-  explicit HistoryPanel(Document& document, QWidget* parent = nullptr);
+  explicit HistoryPanel(Workbench& workbench, QWidget* parent = nullptr);
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -19,7 +20,7 @@ class HistoryPanel final : public QListView {
   void go_to(const QModelIndex& index);
   void show_current();
 
-  Document& document_;
+  Workbench& workbench_;
   HistoryList* list_ = nullptr;
 };
 

@@ -1,9 +1,9 @@
 // A widget that OpenGL draws into, on the screen by a window of its own.
 //
-// A QOpenGLWidget in a window makes Qt compose that whole window by OpenGL whenever any part of it is painted;
-// on a processor that draws, one step of a mouse in another view then costs as much as a frame of the scene.
-// Here the two go to the screen apart. The mouse and the keys are the widget's own: the inner window takes
-// none.
+// A QOpenGLWidget in a window makes Qt compose that whole window by OpenGL whenever any part of it is
+// painted; on a processor that draws, one step of a mouse in another view then costs as much as a frame of
+// the scene. Here the two go to the screen apart. The mouse and the keys are the widget's own: the inner
+// window takes none.
 #pragma once
 #include <QImage>
 #include <QOffscreenSurface>

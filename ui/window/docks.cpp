@@ -96,7 +96,7 @@ void Docks::show_workbench(Workbench* workbench) {
   dock(Panel::kProject)->setWidget(project);
   dock(Panel::kInspector)->setWidget(new InspectorPanel(*workbench, action));
   dock(Panel::kJobs)->setWidget(new JobsPanel({&workbench->jobs, &window_.start_jobs()}));
-  dock(Panel::kHistory)->setWidget(new HistoryPanel(workbench->document));
+  dock(Panel::kHistory)->setWidget(new HistoryPanel(*workbench));
 }
 
 bool Docks::is_open(Panel panel) const {

@@ -1,6 +1,7 @@
 // What a Project holds; shared by the files that implement it, not for other folders.
 #pragma once
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct Project::State {
   FileSystem file_system = FileSystem::kLocal;
   detail::Access access = detail::Access::kRead;
   std::shared_ptr<detail::WriterLock> lock;  // null: read-only; shared by the connections beside one another
+  // Held while a transaction writes; shared like the lock. SQLite alone would give up after 5 s.
+  std::shared_ptr<std::mutex> turn = std::make_shared<std::mutex>();
   std::unique_ptr<detail::Database> database;
   bool lost = false;  // the lock was taken over
   bool editing = false;
@@ -39,6 +42,7 @@ struct Project::State {
 template <class Change>
 auto Project::State::write(const Change& change) {
   require_writer();
+  const std::scoped_lock writing(*turn);
   detail::Transaction transaction(*database);
   require_lock();
   if constexpr (std::is_void_v<decltype(change())>) {

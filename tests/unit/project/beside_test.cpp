@@ -4,6 +4,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <future>
 #include <thread>
 
 #include "unit/project/project_folder.h"
@@ -47,6 +49,25 @@ TEST_F(Beside, SeesWhatIsCommittedAndWritesUnderTheSameLock) {
   beside.close();
   project.edit("three", [](Interpretation& it) { it.add_fault("Three"); });  // still the writer
   EXPECT_EQ(error_of([&] { Project::open(path_, OpenMode::kWrite); }).code(), ErrorCode::kHeld);
+}
+
+// Longer than SQLite's own patience of 5 s.
+TEST_F(Beside, WaitsUntilTheOtherHasWritten) {
+  auto project = Project::create(path_, small_survey());
+  auto beside = project.beside();
+  std::promise<void> begun;
+  std::thread slow([&] {
+    beside.edit("slow", [&](Interpretation& it) {
+      begun.set_value();
+      std::this_thread::sleep_for(std::chrono::milliseconds(5500));
+      it.add_fault("Slow");
+    });
+  });
+  begun.get_future().wait();
+  project.edit("gesture", [](Interpretation& it) { it.add_fault("Gesture"); });
+  slow.join();
+  ASSERT_EQ(project.history().size(), 2U);
+  EXPECT_EQ(project.history().back().name, "gesture");
 }
 
 TEST_F(Beside, LeavesTheLocksOfTheFirstWhereTheyAre) {

@@ -178,6 +178,35 @@ TEST_F(Edit, IsNotEnteredTwiceAndEndsWithItsInterpretation) {
   EXPECT_EQ(error_of([&] { project.edit("", [](Interpretation&) {}); }).code(), ErrorCode::kInvalid);
 }
 
+// In one transaction there and back: the same as step by step, and nothing where it is cancelled on the way.
+TEST_F(Edit, GoesToAnyStep) {
+  auto project = Project::create(path_, small_survey());
+  for (int n = 0; n < 30; ++n) {
+    const std::string name = fmt::format("F{}", n);
+    project.edit(fmt::format("add {}", name), [&](Interpretation& it) { it.add_fault(name); });
+  }
+  const auto history = project.history();
+  EXPECT_EQ(project.go_to_step(history[9].id, JobContext()), 20);
+  EXPECT_EQ(project.faults().size(), 10U);
+  EXPECT_EQ(project.go_to_step(history[9].id, JobContext()), 0);
+  EXPECT_EQ(project.go_to_step(history[24].id, JobContext()), 15);
+  EXPECT_EQ(project.faults().size(), 25U);
+  EXPECT_EQ(project.undo(), "add F24");
+
+  int reports = 0;
+  std::function<void()> cancel;
+  const JobContext job([&](const Progress&) {
+    if (++reports == 5) cancel();
+  });
+  cancel = [&] { job.cancel(); };
+  EXPECT_EQ(error_of([&] { project.go_to_step(0, job); }).code(), ErrorCode::kCancelled);
+  EXPECT_EQ(project.faults().size(), 24U);
+  EXPECT_EQ(project.go_to_step(0, JobContext()), 24);
+  EXPECT_TRUE(project.faults().empty());
+  EXPECT_EQ(project.go_to_step(history.back().id, JobContext()), 30);
+  EXPECT_EQ(project.faults().size(), 30U);
+}
+
 TEST_F(Edit, UndoMakesAMeshFreshAgain) {
   auto project = Project::create(path_, {});
   std::int64_t fault = 0, node = 0;
