@@ -1,7 +1,9 @@
 #include "ui/dialogs/import_segy_dialog.h"
 
 #include <QFileInfo>
+#include <QFontDatabase>
 #include <QHBoxLayout>
+#include <QPlainTextEdit>
 #include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSplitter>
@@ -158,7 +160,15 @@ QWidget* ImportSegyDialog::preview_pane() {
   auto* column = static_cast<QVBoxLayout*>(right->layout());
   column->addWidget(caption(tr("Preview"), right));
   line_ = new SegyLineView(right);
+  text_ = new QPlainTextEdit(right);
+  text_->setObjectName(QStringLiteral("text_header"));
+  text_->setAccessibleName(tr("Text header"));
+  text_->setReadOnly(true);
+  text_->setLineWrapMode(QPlainTextEdit::NoWrap);
+  text_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+  text_->hide();
   column->addWidget(line_, 1);
+  column->addWidget(text_, 1);
   auto* row = new QHBoxLayout;
   row->setSpacing(8);
   turn_ = new QPushButton(tr("Inline"), right);
@@ -173,6 +183,16 @@ QWidget* ImportSegyDialog::preview_pane() {
   row->addWidget(turn_);
   row->addWidget(line_text_);
   row->addWidget(line_slider_, 1);
+  auto* shows_text = new QPushButton(tr("Text header"), right);
+  shows_text->setObjectName(QStringLiteral("shows_text"));
+  shows_text->setToolTip(tr("What the file says of itself in words, instead of the preview"));
+  shows_text->setCheckable(true);
+  shows_text->setAutoDefault(false);
+  row->addWidget(shows_text);
+  connect(shows_text, &QPushButton::toggled, this, [this](bool on) {
+    text_->setVisible(on);
+    line_->setVisible(!on);
+  });
   column->addLayout(row);
   connect(turn_, &QPushButton::clicked, this, [this] {
     of_inline_ = !of_inline_;
@@ -260,6 +280,11 @@ void ImportSegyDialog::show_findings() {
   const segy::Report& report = found.report;
   evidence_->setText(evidence_of(found));
   form_->show_found(report, found.geometry);
+  QStringList words;
+  for (const auto* header : {&report.text_header, &report.extended_text_header}) {
+    for (const std::string& line : *header) words += QString::fromStdString(line);
+  }
+  if (const QString text = words.join(u'\n'); text_->toPlainText() != text) text_->setPlainText(text);
   candidates_->clear();
   for (std::size_t n = 0; n < found.candidates.size(); ++n) {
     const segy::LineCandidate& candidate = found.candidates[n];

@@ -15,6 +15,8 @@
 #include "ui/dialogs/segy_map_view.h"
 #include "ui/model/workbench.h"
 
+class QPlainTextEdit;
+
 namespace footwall::ui {
 
 class ImportSegyDialog final : public QDialog {
@@ -78,6 +80,7 @@ class ImportSegyDialog final : public QDialog {
          *message_ = nullptr;
   SegyMapView* map_ = nullptr;
   SegyLineView* line_ = nullptr;
+  QPlainTextEdit* text_ = nullptr;
   QSlider* line_slider_ = nullptr;
   QPushButton *turn_ = nullptr, *import_ = nullptr, *cancel_ = nullptr;
   QProgressBar* progress_ = nullptr;

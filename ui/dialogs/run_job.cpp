@@ -58,7 +58,6 @@ int start_run(Workbench& workbench, const tasks::ExtractOptions& options, std::f
   };
   return start_on_project(workbench, title, work, [&document, ended, done = std::move(done)] {
     if (!ended->remade.empty()) Q_EMIT document.meshes_changed(ended->remade);
-    Q_EMIT document.runs_changed();
     if (done) done(ended->run);
   });
 }

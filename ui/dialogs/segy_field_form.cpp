@@ -57,6 +57,8 @@ SegyFieldForm::SegyFieldForm(const QString& name, QWidget* parent) : QWidget(par
   for (QLineEdit* field : {inline_byte_, crossline_byte_, x_byte_, y_byte_}) {
     field->setToolTip(tr("A byte of the trace header from 1, as 189, 81:ieee, 193:int16, or none"));
   }
+  scalar_ = line({}, "scalar");
+  scalar_->setToolTip(tr("As at byte 71: 10 multiplies X and Y by 10, -100 divides them by 100"));
   interval_ = line({}, "interval");
   format_ = choice(this, "format", tr("as the file says"));
   for (int code = 1; code <= 16; ++code) {
@@ -84,11 +86,12 @@ SegyFieldForm::SegyFieldForm(const QString& name, QWidget* parent) : QWidget(par
   form->addRow(tr("CRS"), crs_);
   form->addRow(tr("Inline, crossline"), side_by_side(inline_byte_, crossline_byte_));
   form->addRow(tr("X, Y"), side_by_side(x_byte_, y_byte_));
-  form->addRow(tr("Interval"), interval_);
+  form->addRow(tr("Interval, scalar"), side_by_side(interval_, scalar_));
   form->addRow(tr("Format"), side_by_side(format_, endian_));
   QWidget* before = name_;
-  for (QWidget* next : std::initializer_list<QWidget*>{domain_, unit_, crs_, inline_byte_, crossline_byte_,
-                                                       x_byte_, y_byte_, interval_, format_, endian_}) {
+  for (QWidget* next :
+       std::initializer_list<QWidget*>{domain_, unit_, crs_, inline_byte_, crossline_byte_, x_byte_, y_byte_,
+                                       interval_, scalar_, format_, endian_}) {
     setTabOrder(before, next);
     before = next;
   }
@@ -108,6 +111,7 @@ SegyFields SegyFieldForm::fields() const {
           .crossline_byte = crossline_byte_->text(),
           .x_byte = x_byte_->text(),
           .y_byte = y_byte_->text(),
+          .scalar = scalar_->text(),
           .format = chosen<int>(format_),
           .endian = chosen<segy::Endian>(endian_),
           .interval = interval_->text(),
@@ -133,6 +137,8 @@ void SegyFieldForm::show_found(const segy::Report& report, const std::optional<s
   crossline_byte_->setPlaceholderText(byte_text(report.crossline_word));
   x_byte_->setPlaceholderText(byte_text(report.x_word));
   y_byte_->setPlaceholderText(byte_text(report.y_word));
+  scalar_->setPlaceholderText(report.coordinate_scalar != 0 ? tr("scalar %1").arg(report.coordinate_scalar)
+                                                            : tr("scalar of X, Y"));
   const SegyFields said = fields();
   const QString unit = said.unit ? QString::fromUtf8(survey::name_of(*said.unit).data()) : QString();
   const double interval = geometry ? geometry->interval : report.interval_us / 1000;

@@ -27,7 +27,7 @@ class SegyFieldForm final : public QWidget {
  private:
   QLineEdit* line(const QString& placeholder, const char* name);
 
-  QLineEdit *name_, *inline_byte_, *crossline_byte_, *x_byte_, *y_byte_, *interval_, *crs_;
+  QLineEdit *name_, *inline_byte_, *crossline_byte_, *x_byte_, *y_byte_, *scalar_, *interval_, *crs_;
   QComboBox *domain_, *unit_, *format_, *endian_;
 };
 

@@ -42,6 +42,16 @@ segy::Options options_of(const SegyFields& fields) {
   options.crossline_byte = word_of(fields.crossline_byte, "the crossline's byte");
   options.x_byte = word_of(fields.x_byte, "the byte of X");
   options.y_byte = word_of(fields.y_byte, "the byte of Y");
+  if (const QString scalar = fields.scalar.trimmed(); !scalar.isEmpty()) {
+    bool is_number = false;
+    const int factor = QLocale::c().toInt(scalar, &is_number);
+    if (!is_number || factor == 0 || factor < -32768 || factor > 32767) {
+      throw Error(ErrorCode::kUsage,
+                  "the coordinate scalar is no whole number as at byte 71: " + scalar.toStdString(),
+                  "10 multiplies by 10, -100 divides by 100; leave it empty to take the file's");
+    }
+    options.coordinate_scalar = factor;
+  }
   options.format = fields.format;
   options.endian = fields.endian;
   if (!fields.interval.trimmed().isEmpty()) {

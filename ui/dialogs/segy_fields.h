@@ -12,6 +12,7 @@ namespace footwall::ui {
 struct SegyFields {
   // As storage/formats/segy/header_word.h writes them, "189", "81:ieee"; empty: where the headers show them.
   QString inline_byte, crossline_byte, x_byte, y_byte;
+  QString scalar;             // of coordinates, as at byte 71: -100 divides by 100; empty: each trace's own
   std::optional<int> format;  // sample format code; none: the file's
   std::optional<formats::segy::Endian> endian;
   QString interval;  // in the vertical unit; empty: the file's

@@ -92,7 +92,8 @@ void SegyLineView::paintEvent(QPaintEvent*) {
   const double each = (has_z ? found.geometry->interval : 1) * static_cast<double>(line.sample_step);
   const double depth = each * static_cast<double>(line.samples);
   const double step = round_step(depth, area.height() / 48);
-  for (double z = std::ceil(first / step) * step; z < first + depth; z += step) {
+  for (auto n = std::llround(std::ceil(first / step)); static_cast<double>(n) * step < first + depth; ++n) {
+    const double z = static_cast<double>(n) * step;
     const double y =
         area.top() + area.height() * ((z - first) / each + 0.5) / static_cast<double>(line.samples);
     if (y > area.bottom() - 4) break;
@@ -105,8 +106,9 @@ void SegyLineView::paintEvent(QPaintEvent*) {
   const survey::LineAxis& across = line.of_inline ? *found.crosslines : *found.inlines;
   const double lines = static_cast<double>(across.last()) - static_cast<double>(across.first);
   const double line_step = std::max(1.0, round_step(std::max(lines, 1.0), area.width() / 80));
-  for (double n = std::ceil(across.first / line_step) * line_step; n <= static_cast<double>(across.last());
-       n += line_step) {
+  for (auto tick = std::llround(std::ceil(across.first / line_step));
+       static_cast<double>(tick) * line_step <= static_cast<double>(across.last()); ++tick) {
+    const double n = static_cast<double>(tick) * line_step;
     const double x = area.left() + area.width() * ((n - across.first) / across.step + 0.5) /
                                        static_cast<double>(across.count);
     painter.drawLine(QPointF(x, area.top() - 4), QPointF(x, area.top()));

@@ -68,10 +68,30 @@ QJsonObject json_of(const IsosurfaceLook& look) {
           {"visible", look.visible}};
 }
 
+QJsonObject json_of(const SampleLook& look) {
+  QJsonObject json{{"colour_map", look.colour_map},
+                   {"clip_percentile", look.clip_percentile},
+                   {"gain", look.gain},
+                   {"wiggle", look.wiggle}};
+  if (look.interpolate) json["interpolate"] = *look.interpolate;
+  return json;
+}
+
+// What the JSON does not say, or says wrongly, stays as it is.
+SampleLook look_from(const QJsonObject& json, SampleLook look) {
+  look.colour_map = json["colour_map"].toString(look.colour_map);
+  look.clip_percentile = number(json["clip_percentile"], 50, 100, look.clip_percentile);
+  look.gain = number(json["gain"], 1e-3, 1e3, look.gain);
+  look.wiggle = json["wiggle"].toBool(look.wiggle);
+  look.interpolate.reset();
+  if (json["interpolate"].isBool()) look.interpolate = json["interpolate"].toBool();
+  return look;
+}
+
 }  // namespace
 
 Display::Display(Document& document, QObject* parent) : QObject(parent), document_(document) {
-  if (!document_.volumes().empty()) volume_ = document_.volumes().front().id;
+  if (!document_.volumes().empty()) take_volume(document_.volumes().front().id);
   connect(&document_, &Document::volumes_changed, this, [this] {
     const auto& volumes = document_.volumes();
     const bool here = std::ranges::find(volumes, volume_, &project::VolumeRecord::id) != volumes.end();
@@ -79,8 +99,25 @@ Display::Display(Document& document, QObject* parent) : QObject(parent), documen
   });
 }
 
+SampleLook Display::first_look(Id volume) const {
+  const auto& volumes = document_.volumes();
+  const auto found = std::ranges::find(volumes, volume, &project::VolumeRecord::id);
+  SampleLook look;
+  // A grey scale tells signed samples from one another; what has no sign has an even one.
+  if (found != volumes.end() && found->role == "discontinuity") look.colour_map = QStringLiteral("viridis");
+  return look;
+}
+
+void Display::take_volume(Id volume) {
+  looks_[volume_] = samples_;
+  volume_ = volume;
+  const auto known = looks_.find(volume);
+  samples_ = known != looks_.end() ? known->second : first_look(volume);
+}
+
 void Display::set_volume(Id volume) {
-  if (std::exchange(volume_, volume) == volume) return;
+  if (volume == volume_) return;
+  take_volume(volume);
   Q_EMIT samples_changed();
   Q_EMIT changed();
 }
@@ -199,6 +236,11 @@ void Display::set_perspective(bool on) {
   Q_EMIT changed();
 }
 
+void Display::show_place(const survey::IndexPoint& place, double reach) {
+  set_cursor(place);
+  Q_EMIT place_shown(place, reach);
+}
+
 void Display::set_cursor(const std::optional<survey::IndexPoint>& place) {
   if (std::exchange(cursor_, place) == place) return;
   Q_EMIT cursor_moved();
@@ -216,13 +258,15 @@ QJsonObject Display::to_json() const {
                     {"edges", faces_.edges}};
   if (faces_.low) faces["low"] = *faces_.low;
   if (faces_.high) faces["high"] = *faces_.high;
-  QJsonObject samples{{"colour_map", samples_.colour_map},
-                      {"clip_percentile", samples_.clip_percentile},
-                      {"gain", samples_.gain},
-                      {"wiggle", samples_.wiggle}};
-  if (samples_.interpolate) samples["interpolate"] = *samples_.interpolate;
+  QJsonObject looks;
+  for (const auto& [volume, look] : looks_) {
+    const auto& volumes = document_.volumes();
+    if (volume != volume_ && std::ranges::find(volumes, volume, &project::VolumeRecord::id) != volumes.end())
+      looks[QString::number(volume)] = json_of(look);
+  }
   QJsonObject all{{"volume", static_cast<double>(volume_)},
-                  {"samples", samples},
+                  {"samples", json_of(samples_)},
+                  {"other_samples", looks},
                   {"faces", faces},
                   {"sections", sections},
                   {"isosurfaces", isosurfaces},
@@ -240,14 +284,13 @@ QJsonObject Display::to_json() const {
 void Display::from_json(const QJsonObject& json) {
   const auto& volumes = document_.volumes();
   const Id volume = static_cast<Id>(number(json["volume"], 0, 1e15, 0));
-  if (std::ranges::find(volumes, volume, &project::VolumeRecord::id) != volumes.end()) volume_ = volume;
-  const QJsonObject samples = json["samples"].toObject();
-  samples_.colour_map = samples["colour_map"].toString(samples_.colour_map);
-  samples_.clip_percentile = number(samples["clip_percentile"], 50, 100, samples_.clip_percentile);
-  samples_.gain = number(samples["gain"], 1e-3, 1e3, samples_.gain);
-  samples_.wiggle = samples["wiggle"].toBool(samples_.wiggle);
-  samples_.interpolate.reset();
-  if (samples["interpolate"].isBool()) samples_.interpolate = samples["interpolate"].toBool();
+  if (std::ranges::find(volumes, volume, &project::VolumeRecord::id) != volumes.end()) take_volume(volume);
+  const QJsonObject looks = json["other_samples"].toObject();
+  for (auto look = looks.begin(); look != looks.end(); ++look) {
+    const Id of = look.key().toLongLong();
+    looks_[of] = look_from(look.value().toObject(), first_look(of));
+  }
+  samples_ = look_from(json["samples"].toObject(), samples_);
   const QJsonObject faces = json["faces"].toObject();
   faces_.colours = from_word(kColours, faces["colours"], faces_.colours);
   faces_.statistic = faces["statistic"].toString(faces_.statistic);
@@ -258,12 +301,12 @@ void Display::from_json(const QJsonObject& json) {
   if (faces["low"].isDouble()) faces_.low = faces["low"].toDouble();
   if (faces["high"].isDouble()) faces_.high = faces["high"].toDouble();
   hidden_.clear();
-  for (const QJsonValue& entry : json["hidden"].toArray()) {
+  for (const auto& entry : json["hidden"].toArray()) {
     const QJsonArray pair = entry.toArray();
     hidden_.insert({static_cast<Item::Kind>(pair.at(0).toInt()), static_cast<Id>(pair.at(1).toDouble())});
   }
   isosurfaces_.clear();
-  for (const QJsonValue& entry : json["isosurfaces"].toArray()) {
+  for (const auto& entry : json["isosurfaces"].toArray()) {
     const QJsonObject look = entry.toObject();
     isosurfaces_.push_back({.id = ++last_id_,
                             .volume = static_cast<Id>(look["volume"].toDouble()),
@@ -273,7 +316,7 @@ void Display::from_json(const QJsonObject& json) {
                             .visible = look["visible"].toBool(true)});
   }
   sections_.clear();
-  for (const QJsonValue& entry : json["sections"].toArray()) {
+  for (const auto& entry : json["sections"].toArray()) {
     const QJsonObject one = entry.toObject();
     Section section{.kind = from_word(kKinds, one["kind"], Section::Kind::kInline),
                     .index = static_cast<std::int64_t>(number(one["index"], 0, kFar, 0)),

@@ -56,6 +56,7 @@ class Display final : public QObject {
   // The volume that sections show; 0 where the project has none.
   Id volume() const { return volume_; }
   void set_volume(Id volume);
+  // How its samples become colours; each volume keeps its own.
   const SampleLook& samples() const { return samples_; }
   void set_samples(const SampleLook& look);
   const FaceLook& faces() const { return faces_; }
@@ -107,6 +108,8 @@ class Display final : public QObject {
   // Where the mouse points, shared by all views; nothing where it points at no place.
   const std::optional<survey::IndexPoint>& cursor() const { return cursor_; }
   void set_cursor(const std::optional<survey::IndexPoint>& place);
+  // The cursor to a place, in the middle of every view that follows, with so many voxels around it.
+  void show_place(const survey::IndexPoint& place, double reach);
 
   QJsonObject to_json() const;
   // Takes what it understands; the rest keeps its default.
@@ -119,13 +122,19 @@ class Display final : public QObject {
   void isosurfaces_changed();
   void sections_changed();
   void cursor_moved();
+  // Views that follow move there, and show so many voxels around it.
+  void place_shown(const footwall::survey::IndexPoint& place, double reach);
   void scene_changed();  // exaggeration, perspective, fade distance, step, snapping
   void changed();        // anything that to_json() holds
 
  private:
+  SampleLook first_look(Id volume) const;
+  void take_volume(Id volume);
+
   Document& document_;
   Id volume_ = 0;
-  SampleLook samples_;
+  SampleLook samples_;              // of volume_
+  std::map<Id, SampleLook> looks_;  // of those shown before
   FaceLook faces_;
   std::set<std::pair<Item::Kind, Id>> hidden_;
   std::vector<IsosurfaceLook> isosurfaces_;

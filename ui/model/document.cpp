@@ -19,6 +19,19 @@ std::optional<double> stored_velocity(const project::Project& project) {
   return velocity > 0 && std::isfinite(velocity) ? std::optional(velocity) : std::nullopt;
 }
 
+// One text a run or view, which differs where it does.
+std::vector<std::string> marks_of(const std::vector<project::RunRecord>& runs) {
+  std::vector<std::string> marks;
+  for (const project::RunRecord& run : runs) marks.push_back(std::to_string(run.id) + " " + run.name);
+  return marks;
+}
+
+std::vector<std::string> marks_of(const std::vector<project::ViewRecord>& views) {
+  std::vector<std::string> marks;
+  for (const project::ViewRecord& view : views) marks.push_back(view.when + " " + view.name);
+  return marks;
+}
+
 }  // namespace
 
 Document::Document(project::Project project, QObject* parent)
@@ -28,6 +41,9 @@ Document::Document(project::Project project, QObject* parent)
   velocity_ = stored_velocity(project_);
   volumes_ = project_.volumes();
   history_ = project_.history();
+  was_read_only_ = project_.read_only();
+  runs_ = marks_of(project_.runs());
+  views_ = marks_of(project_.views());
   reload_interpretation();
 }
 
@@ -186,6 +202,10 @@ void Document::refresh(std::map<Id, Fault> already) {
     history_ = project_.history();
     reload_interpretation(std::move(already));
     Q_EMIT history_changed();
+    if (std::vector<std::string> runs = marks_of(project_.runs()); std::exchange(runs_, runs) != runs)
+      Q_EMIT runs_changed();
+    if (std::vector<std::string> views = marks_of(project_.views()); std::exchange(views_, views) != views)
+      Q_EMIT views_changed();
   } catch (const Error& error) {
     report(error);
   }
@@ -283,6 +303,7 @@ void Document::follow_change() {
 
 void Document::report(const Error& error) {
   Q_EMIT failed(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
+  if (std::exchange(was_read_only_, project_.read_only()) != project_.read_only()) Q_EMIT became_read_only();
 }
 
 }  // namespace footwall::ui

@@ -92,6 +92,8 @@ class Document final : public QObject {
   void meshes_changed(const std::set<footwall::ui::Id>& faults);
   void runs_changed();
   void views_changed();
+  // Another program took the project over: it can only be read from now on.
+  void became_read_only();
   // One line of what happened, one of how to mend it (may be empty).
   void failed(const QString& message, const QString& hint);
 
@@ -115,6 +117,8 @@ class Document final : public QObject {
   std::vector<Fault> faults_;
   std::vector<project::VolumeRecord> volumes_;
   std::vector<project::HistoryStep> history_;
+  std::vector<std::string> runs_, views_;  // those that were told of
+  bool was_read_only_ = false;
   std::map<Id, std::size_t> place_of_fault_;
   std::unordered_map<Id, Id> fault_of_pillar_;
   std::unordered_map<Id, Id> fault_of_node_;

@@ -16,6 +16,7 @@ struct EngineLink::Private {
   Document& document;
   State state = State::kOff;
   QString text;
+  bool wanted = false;
   Id volume = 0;
   std::uint64_t answered = 0;
   QDateTime answered_at = {};
@@ -102,11 +103,17 @@ std::optional<service::Connection> EngineLink::connection() const {
   return private_->colours->connection();
 }
 
+bool EngineLink::is_wanted() const {
+  return private_->wanted;
+}
+
 void EngineLink::start() {
+  private_->wanted = true;
   private_->colours->start();
 }
 
 void EngineLink::stop() {
+  private_->wanted = false;
   private_->colours->stop();
 }
 

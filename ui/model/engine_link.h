@@ -75,6 +75,8 @@ class EngineLink final : public QObject {
   int ranks() const;
   // How to reach the engine that runs; nothing where none does.
   std::optional<service::Connection> connection() const;
+  // Whether it was told to start, and not to stop since.
+  bool is_wanted() const;
   // Starts it, or again after kLost. Returns at once.
   void start();
   void stop();

@@ -129,7 +129,7 @@ bool is_unassigned(const Fault& fault) {
 
 QString next_fault_name(const Document& document) {
   for (int n = 1;; ++n) {
-    const QString name = QStringLiteral("F%1").arg(n);
+    QString name = QStringLiteral("F%1").arg(n);
     const bool taken = std::ranges::any_of(
         document.faults(), [&](const Fault& fault) { return fault.record.name == name.toStdString(); });
     if (!taken) return name;

@@ -100,12 +100,12 @@ PictureThread::~PictureThread() {
   thread_.join();
 }
 
-std::uint64_t PictureThread::draw(PictureRequest request, std::vector<EngineVolume> volumes) {
+std::uint64_t PictureThread::draw(const PictureRequest& request, std::vector<EngineVolume> volumes) {
   std::uint64_t number = 0;
   {
     const std::scoped_lock lock(mutex_);
     number = ++last_;
-    wanted_ = Wanted{number, std::move(request), std::move(volumes)};
+    wanted_ = Wanted{number, request, std::move(volumes)};
     without_engine_.reset();
     job_.cancel();
   }

@@ -34,7 +34,7 @@ class PictureThread {
   PictureThread& operator=(const PictureThread&) = delete;
 
   // volumes: of the request's isosurfaces, in their order. Without an engine it waits for engine_came().
-  std::uint64_t draw(PictureRequest request, std::vector<EngineVolume> volumes);
+  std::uint64_t draw(const PictureRequest& request, std::vector<EngineVolume> volumes);
   void engine_came();
 
  private:

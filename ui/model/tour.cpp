@@ -23,8 +23,14 @@ std::vector<TourStop> rankable(const FaultSurface& surface, const FaceNumbers& n
       middle.j += corner.j / 3;
       middle.k += corner.k / 3;
     }
+    double reach = 0;
+    for (const std::int32_t vertex : face.vertices) {
+      const survey::IndexPoint& corner = surface.places[static_cast<std::size_t>(vertex)];
+      reach = std::max(reach, std::hypot(corner.i - middle.i, corner.j - middle.j, corner.k - middle.k));
+    }
     stops.push_back({{.kind = Item::Kind::kFace, .id = surface.fault, .panel = face.panel, .number = face.n},
                      middle,
+                     reach,
                      numbers.values[n]});
   }
   return stops;

@@ -11,6 +11,7 @@ namespace footwall::ui {
 struct TourStop {
   Item face;
   survey::IndexPoint place;  // its centroid
+  double reach = 0;          // voxels from there to its farthest corner
   double value = 0;          // of the statistic that the tour goes by
 };
 

@@ -135,14 +135,12 @@ int start_update(Workbench& workbench) {
   auto told = std::make_shared<Told>();
   auto watch = std::make_unique<Watch>(workbench, told);
   const bool keeps = !workbench.document.read_only();
-  watch->number = start_on_project(
-      workbench, QObject::tr("Update all"),
-      [told, keeps](project::Project& project, const JobContext& job) {
-        const LiveRun run = wait_for_all(*told, job);
-        job.report(0.95, "store");
-        if (keeps) store(project, run);
-      },
-      [&workbench] { Q_EMIT workbench.document.runs_changed(); });
+  watch->number = start_on_project(workbench, QObject::tr("Update all"),
+                                   [told, keeps](project::Project& project, const JobContext& job) {
+                                     const LiveRun run = wait_for_all(*told, job);
+                                     job.report(0.95, "store");
+                                     if (keeps) store(project, run);
+                                   });
   watch->look();
   return watch.release()->number;
 }

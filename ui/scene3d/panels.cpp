@@ -58,10 +58,18 @@ QImage colour_bar_image(const ColourBar& bar, const SceneColours& colours, const
   constexpr double kBar = 14;
   constexpr double kLong = 132;
   constexpr int kTicks = 5;
+  const bool has_scale = bar.state != Freshness::kPlain;
+  QString below = bar.missing;
+  if (has_scale && bar.not_computed > 0) {
+    below = QCoreApplication::translate("SceneView", "%n fault(s) not computed", nullptr, bar.not_computed);
+    below.replace(QStringLiteral("(s)"), bar.not_computed == 1 ? QString() : QStringLiteral("s"));
+  }
   const double width =
-      2 * kPad + std::max({metrics.horizontalAdvance(bar.title), metrics.horizontalAdvance(note), 88.0});
+      2 * kPad + std::max({metrics.horizontalAdvance(bar.title), metrics.horizontalAdvance(note),
+                           metrics.horizontalAdvance(below), 88.0});
   const double top = kPad + 2 * line + 6;
-  const double height = top + kLong + kPad + (bar.has_undefined ? line + 4 : 0);
+  const double scale = (has_scale ? kLong + kPad : 0) + (has_scale && bar.has_undefined ? line + 4 : 0);
+  const double height = top + scale + (below.isEmpty() ? 0 : line + 4);
   QImage image = blank(width, height, pixel);
   QPainter painter(&image);
   painter.setRenderHint(QPainter::Antialiasing);
@@ -75,6 +83,8 @@ QImage colour_bar_image(const ColourBar& bar, const SceneColours& colours, const
   painter.drawText(QPointF(kPad, kPad + metrics.ascent()), bar.title);
   painter.setPen(colours.dim);
   painter.drawText(QPointF(kPad, kPad + line + metrics.ascent()), note);
+  painter.drawText(QPointF(kPad, top + scale + metrics.ascent() - 4), below);
+  if (!has_scale) return image;
   painter.setRenderHint(QPainter::Antialiasing, false);
   const bool hatched = bar.state == Freshness::kStale;
   for (int y = 0; y < static_cast<int>(kLong * pixel); ++y) {

@@ -14,7 +14,9 @@ namespace footwall::ui {
 struct ColourBar {
   QString title;                        // "variance"
   QString unit;                         // may be empty
-  Freshness state = Freshness::kFresh;  // the oldest of what is shown
+  Freshness state = Freshness::kFresh;  // the oldest of what is shown; kPlain: there is nothing to scale
+  int not_computed = 0;                 // faults that are shown without it
+  QString missing = {};                 // what has to be there first; may be empty
   const render::ColourMap* colours = nullptr;
   std::array<double, 2> range{0, 1};
   bool has_undefined = false;  // adds a swatch "no value"

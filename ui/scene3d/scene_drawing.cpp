@@ -467,6 +467,26 @@ std::optional<ColourBar> SceneDrawing::voxel_bar() const {
   return bar;
 }
 
+// Why no face has a value of a statistic.
+QString SceneDrawing::missing_for(const QString& statistic) const {
+  const auto tr = [](const char* words) { return QCoreApplication::translate("SceneView", words); };
+  const auto& survey = workbench_.document.survey();
+  constexpr std::array kInMetres{"dip", "area", "metres_along_normal", "offset"};
+  const bool in_metres =
+      std::ranges::any_of(kInMetres, [&](const char* one) { return statistic == QLatin1String(one); });
+  if (in_metres && survey && !survey->has_metric_depth() && !workbench_.document.velocity())
+    return tr("needs a velocity (Survey > Velocity)");
+  switch (workbench_.engine.state()) {
+    case EngineLink::State::kOff:
+    case EngineLink::State::kLost:
+      return tr("the engine is off (Compute > Engine)");
+    case EngineLink::State::kStarting:
+      return tr("the engine starts");
+    default:
+      return {};
+  }
+}
+
 std::optional<ColourBar> SceneDrawing::colour_bar() const {
   const FaceLook& look = workbench_.display.faces();
   if (look.colours == FaceColours::kVoxels) return voxel_bar();
@@ -487,16 +507,26 @@ std::optional<ColourBar> SceneDrawing::colour_bar() const {
       bar.colours = &one;
   }
   // The bar's state is that of the colours that are least worth.
-  bool any = false;
+  int shown = 0;
   bar.state = Freshness::kFresh;
   for (const Id fault : shown_faults()) {
     if (!meshes_.has(fault)) continue;
+    ++shown;
     const Freshness state = source.freshness(fault, look.statistic);
-    any = any || state != Freshness::kPlain;
-    if (state != Freshness::kPlain) bar.state = std::max(bar.state, state);
+    if (state == Freshness::kPlain) {
+      ++bar.not_computed;
+    } else {
+      bar.state = std::max(bar.state, state);
+    }
   }
-  if (!any || !range_) return {};
-  bar.range = {range_->first, range_->second};
+  if (shown == 0) return {};
+  if (range_) {
+    bar.range = {range_->first, range_->second};
+  } else {
+    bar.state = Freshness::kPlain;
+    bar.unit.clear();
+    bar.missing = missing_for(look.statistic);
+  }
   return bar;
 }
 

@@ -149,6 +149,7 @@ class SceneDrawing {
   render::Matrix4 to_voxels() const;
   std::optional<ColourBar> voxel_bar() const;
   GLuint colours_named(const QString& name) const;
+  QString missing_for(const QString& statistic) const;
   std::optional<ColourBar> colour_bar() const;
   std::size_t spend(std::size_t triangles);
 

@@ -131,6 +131,8 @@ void SceneView::Private::connect_models() {
     if (drawing.has_mouse || soon_timer.isActive()) return;
     workbench.picking.is_dragging() ? changed_soon() : view.update();
   });
+  QObject::connect(&display, &Display::place_shown, &view,
+                   [this](const survey::IndexPoint& place, double reach) { show_place(place, reach); });
   QObject::connect(&display, &Display::scene_changed, &view, [this] {
     Display& now = workbench.display;
     if (now.exaggeration() != drawing.heights()) {
@@ -166,6 +168,21 @@ void SceneView::Private::connect_models() {
     if (state == EngineLink::State::kReady && last_picture == 0) ask_for_picture();
     if (state == EngineLink::State::kOff || state == EngineLink::State::kLost) stop_waiting();
   });
+}
+
+void SceneView::Private::show_place(const survey::IndexPoint& place, double reach) {
+  if (!drawing.frame()) return;
+  std::vector<Vec3> corners;
+  for (const double i : {-reach, reach}) {
+    for (const double j : {-reach, reach}) {
+      for (const double k : {-reach, reach}) {
+        corners.push_back(
+            drawing.frame()->scene_of(survey::IndexPoint{place.i + i, place.j + j, place.k + k}));
+      }
+    }
+  }
+  drawing.camera.fit(size(), corners);
+  camera_moved();
 }
 
 void SceneView::Private::survey_changed() {
@@ -375,7 +392,11 @@ void SceneView::Private::ask_for_picture() {
   }
   pictures_asked[last_picture] = request.view_projection;
   passes = 0;
-  drawing.picture_share = 0;
+  // Where there is no engine it comes when one is started: until then nothing is awaited, and what is there
+  // is of another camera or value.
+  const bool awaited = !drawing.source.is_drawing || drawing.source.is_drawing();
+  drawing.picture_share = awaited ? 0 : 1;
+  if (!awaited) drawing.clear_picture();
   drawing.loose_changed();
   changed();
 }

@@ -56,6 +56,7 @@ struct SceneView::Private {
   void connect_models();
   void take_style();
   void survey_changed();
+  void show_place(const survey::IndexPoint& place, double reach);
   void sections_changed();
   void ask_for_samples();
   void ask_for_picture();

@@ -29,17 +29,19 @@ SceneView::SceneView(Workbench& workbench, QWidget* parent)
   setMinimumSize(120, 90);
   setAccessibleName(tr("Scene"));
   Workbench& models = workbench;
-  set_source({[&models](Id fault) { return models.surfaces.surface(fault); },
-              [&models](Id fault, const QString& name) { return models.surfaces.numbers(fault, name); },
-              [&models](Id fault, const QString& name) { return models.surfaces.freshness(fault, name); },
-              [&models](const std::set<Id>& faults, const QString& name) {
-                return models.surfaces.range(faults, name);
-              },
-              [&models] { return models.surfaces.statistics(); },
-              [&models](const PictureRequest& request) { return models.engine.draw(request); },
-              [&models](QObject* asker, Id volume, const Section& section) {
-                models.sections.ask(asker, volume, section);
-              }});
+  set_source(
+      {[&models](Id fault) { return models.surfaces.surface(fault); },
+       [&models](Id fault, const QString& name) { return models.surfaces.numbers(fault, name); },
+       [&models](Id fault, const QString& name) { return models.surfaces.freshness(fault, name); },
+       [&models](const std::set<Id>& faults, const QString& name) {
+         return models.surfaces.range(faults, name);
+       },
+       [&models] { return models.surfaces.statistics(); },
+       [&models](const PictureRequest& request) { return models.engine.draw(request); },
+       [&models](QObject* asker, Id volume, const Section& section) {
+         models.sections.ask(asker, volume, section);
+       },
+       [&models] { return models.engine.is_wanted() && models.engine.state() != EngineLink::State::kLost; }});
   d_->connect_models();
   d_->take_style();
   d_->drawing.camera.set_perspective(workbench.display.perspective());

@@ -24,6 +24,8 @@ struct SceneSource {
   std::function<std::vector<project::StatisticRecord>()> statistics;
   std::function<std::uint64_t(const PictureRequest&)> draw;
   std::function<void(QObject* asker, Id volume, const Section&)> ask;  // as SectionReader::ask
+  // Whether what draw() was asked for is under way, not put off until an engine is started. Empty: it is.
+  std::function<bool()> is_drawing = {};
 };
 
 // Work done so far.

@@ -63,6 +63,8 @@ void SectionCanvas::connect_models() {
   connect(&bench_.display, &Display::visibility_changed, this, still);
   connect(&bench_.display, &Display::scene_changed, this, still);
   connect(&bench_.display, &Display::cursor_moved, this, overlay);
+  connect(&bench_.display, &Display::place_shown, this,
+          [this](const survey::IndexPoint& place, double reach) { show_place(place, reach); });
   connect(&bench_.selection, &Selection::changed, this, still);
   connect(&bench_.selection, &Selection::active_fault_changed, this, still);
   connect(&bench_.selection, &Selection::hover_changed, this, overlay);
@@ -253,6 +255,14 @@ void SectionCanvas::frame_selection() {
   }
   if (!box) return;
   view_.show(box->first, box->second);
+  redraw_base();
+  Q_EMIT view_changed();
+}
+
+void SectionCanvas::show_place(const survey::IndexPoint& place, double reach) {
+  if (!exists_ || !linked_ || !bench_.document.survey()) return;
+  const PlanePoint middle = plane_of(section_, place);
+  view_.show({middle.u - reach, middle.v - reach}, {middle.u + reach, middle.v + reach});
   redraw_base();
   Q_EMIT view_changed();
 }

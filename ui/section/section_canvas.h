@@ -71,6 +71,7 @@ class SectionCanvas final : public QWidget {
   void ask();
   void take_samples(std::shared_ptr<const SectionSamples> samples);
   void lay_out();
+  void show_place(const survey::IndexPoint& place, double reach);
   void redraw_base();
   void redraw_still();
   void show_message();

@@ -10,6 +10,7 @@ namespace footwall::ui {
 std::vector<ActionRow> file_actions();
 std::vector<ActionRow> edit_actions();
 std::vector<ActionRow> view_actions();
+std::vector<ActionRow> choice_actions();  // in the menu of views
 std::vector<ActionRow> survey_actions();
 std::vector<ActionRow> fault_actions();
 std::vector<ActionRow> tour_actions();  // in the menu of faults

@@ -43,6 +43,7 @@ class MainWindow final : public QMainWindow {
   BannerArea& banners() { return *banners_; }
   Docks& docks() { return *docks_; }
   ViewArea* views() const { return views_; }  // null on the start page
+  ToolBar* tool_bar() const { return tool_bar_; }
   StatusLine& status_line() { return *status_; }
 
   // What came by drag and drop, from the Import dialog or the command line: told from its content.
@@ -70,6 +71,7 @@ class MainWindow final : public QMainWindow {
   void connect_workbench();
   void show_lasting_banners(const QString& held);
   void show_engine_banner();
+  void show_read_only_banner(const QString& held);
   void show_surface_banner();
   void show_engine_state();
   void relink_missing(const QString& volume);

@@ -215,6 +215,11 @@ void ToolBar::show_workbench(Workbench* workbench) {
   refresh();
 }
 
+void ToolBar::open(Choice choice) {
+  QToolButton* button = choice == Choice::kColours ? colours_ : choice == Choice::kClip ? clip_ : statistic_;
+  button->showMenu();
+}
+
 void ToolBar::refresh() {
   const Display& display = workbench_->display;
   colours_->setText(QLatin1Char(' ') + display.samples().colour_map);

@@ -35,6 +35,9 @@ class ToolBar final : public QToolBar {
   ToolBar(const Actions& actions, QWidget* parent = nullptr);
   // Null: no project.
   void show_workbench(Workbench* workbench);
+  // Opens a choice's menu, for the keyboard.
+  enum class Choice { kColours, kClip, kStatistic };
+  void open(Choice choice);
 
  private:
   QToolButton* add_choice(const QString& tip, const std::function<void(QMenu&)>& fill);

@@ -1,6 +1,5 @@
 // From face to face in the order of how badly each sits on the fault, and Enter to mend it.
-#include <QApplication>
-#include <QKeyEvent>
+#include <QCoreApplication>
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +14,10 @@ namespace footwall::ui {
 namespace {
 
 enum class Tour { kContrast, kOffset };
+
+// What a view shows around a face, in every direction: voxels at least, and the face's size so often.
+constexpr double kAround = 24;
+constexpr double kFacesAround = 4;
 
 QString translated(const char* text) {
   return QCoreApplication::translate("Actions", text);
@@ -39,7 +42,6 @@ std::vector<TourStop> stops_of(const Workbench& bench, Id fault, Tour tour) {
 void show_stop(MainWindow& window, const TourStop& stop) {
   Workbench& bench = *window.workbench();
   bench.selection.select(stop.face);
-  bench.display.set_cursor(stop.place);
   const auto sections = bench.display.sections();
   for (const Display::ShownSection& shown : sections) {
     if (!shown.linked || shown.section.kind == Section::Kind::kLine) continue;
@@ -49,12 +51,7 @@ void show_stop(MainWindow& window, const TourStop& stop) {
                                                                          : stop.place.k);
     bench.display.move_section(shown.id, stepped(moved, 0, *bench.document.survey()));
   }
-  for (const ViewTile* tile : window.views()->tiles()) {
-    QKeyEvent frame(QEvent::KeyPress, Qt::Key_F, Qt::NoModifier);
-    QWidget* view = tile->view();
-    while (view->focusProxy() != nullptr) view = view->focusProxy();
-    QApplication::sendEvent(view, &frame);
-  }
+  bench.display.show_place(stop.place, std::max(kAround, kFacesAround * stop.reach));
   // Where Enter accepts what the status line says.
   if (ViewTile* tile = window.views()->active()) tile->view()->setFocus(Qt::ShortcutFocusReason);
 }

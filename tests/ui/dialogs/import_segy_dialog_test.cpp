@@ -2,6 +2,9 @@
 
 #include <QComboBox>
 #include <QDirIterator>
+#include <QLineEdit>
+#include <QPlainTextEdit>
+#include <QPushButton>
 #include <QSignalSpy>
 #include <QTest>
 
@@ -26,6 +29,8 @@ class ImportSegyDialogTest final : public QObject {
   void a_changed_byte_updates_map_and_preview();
   void the_newest_fields_win();
   void a_bad_byte_is_said_not_read();
+  void the_scalar_of_coordinates_can_be_said();
+  void shows_the_text_header();
   void a_click_on_the_map_chooses_the_line();
   void imports_into_the_open_project();
   void refuses_what_does_not_fit_the_survey();
@@ -174,6 +179,36 @@ void ImportSegyDialogTest::a_bad_byte_is_said_not_read() {
   QVERIFY2(dialog.message().contains(QLatin1String("300")), qPrintable(dialog.message()));
   field->clear();
   QVERIFY(becomes_ready(dialog));
+}
+
+void ImportSegyDialogTest::the_scalar_of_coordinates_can_be_said() {
+  const MadeSegy made;
+  ImportSegyDialog dialog(text(made.path()), nullptr);
+  choose_time_in_ms(dialog);
+  QVERIFY(becomes_ready(dialog));
+  const auto spacing = [&] { return dialog.look()->survey->found().geometry->map.per_inline_y; };
+  const double before = spacing();
+  const int scalar = dialog.look()->survey->found().report.coordinate_scalar;
+  auto* field = dialog.findChild<QLineEdit*>(QStringLiteral("scalar"));
+  field->setText(QStringLiteral("ten"));
+  QTRY_VERIFY(dialog.message().contains(QLatin1String("scalar")));
+  const double factor = scalar >= 0 ? std::max(1, scalar) : -1.0 / scalar;
+  field->setText(QStringLiteral("10"));
+  QTRY_VERIFY(dialog.can_import() && std::abs(spacing() - before * 10 / factor) < 1e-6 * spacing());
+}
+
+void ImportSegyDialogTest::shows_the_text_header() {
+  const MadeSegy made;
+  ImportSegyDialog dialog(text(made.path()), nullptr);
+  QVERIFY(has_look(dialog));
+  dialog.show();
+  const auto* words = dialog.findChild<QPlainTextEdit*>(QStringLiteral("text_header"));
+  QVERIFY(!words->isVisible());
+  dialog.findChild<QPushButton*>(QStringLiteral("shows_text"))->click();
+  QVERIFY(words->isVisible());
+  QCOMPARE(words->toPlainText().split(u'\n').size(), 40);
+  QVERIFY(words->toPlainText().startsWith(QLatin1String("C 1")) ||
+          words->toPlainText().startsWith(QLatin1String("C01")));
 }
 
 void ImportSegyDialogTest::a_click_on_the_map_chooses_the_line() {

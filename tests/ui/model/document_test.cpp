@@ -19,6 +19,7 @@ class DocumentTest final : public QObject {
   void goes_to_any_step_of_the_history();
   void says_what_the_project_refused();
   void metres_follow_the_velocity();
+  void hears_of_runs_and_views_of_others();
 };
 
 void DocumentTest::tells_what_an_edit_changed() {
@@ -107,6 +108,31 @@ void DocumentTest::metres_follow_the_velocity() {
   QCOMPARE(first("area_voxels"), voxels);
   document.set_velocity(4000);  // nothing new
   QCOMPARE(survey.size(), 2);
+}
+
+void DocumentTest::hears_of_runs_and_views_of_others() {
+  const SampleProject sample;
+  project::Project writer = sample.open();
+  Document document(sample.open(project::OpenMode::kRead));
+  QVERIFY(document.read_only());
+  QSignalSpy runs(&document, &Document::runs_changed);
+  QSignalSpy views(&document, &Document::views_changed);
+  document.refresh();
+  QCOMPARE(runs.size() + views.size(), 0);
+  project::RunRecord run;
+  run.name = "new";
+  writer.add_run(run, {});
+  document.refresh();
+  QCOMPARE(runs.size(), 1);
+  QCOMPARE(views.size(), 0);
+  project::ViewRecord view;
+  view.name = "from above";
+  view.camera = "0,90,1";
+  writer.save_view(view);
+  document.refresh();
+  document.refresh();
+  QCOMPARE(runs.size(), 1);
+  QCOMPARE(views.size(), 1);
 }
 
 static const RegisterTest<DocumentTest> kRegistered;

@@ -3,10 +3,12 @@
 #include <QDockWidget>
 #include <QDropEvent>
 #include <QListWidget>
+#include <QMenu>
 #include <QMimeData>
 #include <QProcess>
 #include <QPushButton>
 #include <QTest>
+#include <QTimer>
 #include <fstream>
 
 #include "ui/dialogs/trim_history_dialog.h"
@@ -66,6 +68,8 @@ class MainWindowTest final : public QObject {
   void inspects_what_is_selected();
   void saves_and_restores_views();
   void an_idle_window_paints_nothing();
+  void says_that_the_engine_is_off();
+  void choices_of_the_tool_bar_open_by_key();
 };
 
 void MainWindowTest::shows_the_start_page_then_a_project() {
@@ -425,6 +429,49 @@ void MainWindowTest::an_idle_window_paints_nothing() {
   }
   qApp->removeEventFilter(&count);
   QVERIFY(idle);
+}
+
+void MainWindowTest::says_that_the_engine_is_off() {
+  const SampleProject sample;
+  MainWindow window({});  // nobody asked for an engine
+  window.show();
+  QVERIFY(window.open_project(QString::fromStdString(sample.path().string())));
+  const QString key = QStringLiteral("engine");
+  QVERIFY2(window.banners().text(key).contains(QLatin1String("no live colours")),
+           qPrintable(window.banners().text(key)));
+  QVERIFY(!window.banners().text(key).contains(QLatin1String("isosurfaces")));
+  // An isosurface that the engine would draw is not waited for.
+  Display& display = window.workbench()->display;
+  display.add_isosurface(display.volume(), 0.5);
+  QVERIFY(window.banners().text(key).contains(QLatin1String("isosurfaces")));
+  QVERIFY(QTest::qWaitFor([&] { return window.is_settled(); }, 20000));
+  QVERIFY(window.banners().press(key, 0));
+  QVERIFY(window.workbench()->engine.is_wanted());
+  QTRY_VERIFY_WITH_TIMEOUT(!window.banners().has(key), 30000);
+}
+
+void MainWindowTest::choices_of_the_tool_bar_open_by_key() {
+  const SampleProject sample;
+  MainWindow window({});
+  window.show();
+  QVERIFY(window.open_project(QString::fromStdString(sample.path().string())));
+  Display& display = window.workbench()->display;
+  // The menu is modal: what is to be done in it comes from a timer.
+  const auto choose = [&](const char* action, const QString& what) {
+    QTimer::singleShot(0, &window, [&window, what] {
+      auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+      QVERIFY(menu != nullptr);
+      for (QAction* one : menu->actions()) {
+        if (one->text() == what) menu->setActiveAction(one);
+      }
+      QTest::keyClick(menu, Qt::Key_Return);
+    });
+    window.actions().action(QString::fromLatin1(action))->trigger();
+  };
+  choose("choose.colours", QStringLiteral("viridis"));
+  QTRY_COMPARE(display.samples().colour_map, QStringLiteral("viridis"));
+  choose("choose.clip", QStringLiteral("clip 95 %"));
+  QTRY_COMPARE(display.samples().clip_percentile, 95.0);
 }
 
 static const RegisterTest<MainWindowTest> kRegistered;
