@@ -364,17 +364,18 @@ struct Picking::State {
 
   std::pair<QString, PointerShape> next_click() const {
     if (!inside) return {{}, PointerShape::kArrow};
-    if (navigates) return {tr("drag to pan; let Space go to pick on"), PointerShape::kHand};
+    if (navigates) return {tr("drag moves the view; let Space go to pick on"), PointerShape::kHand};
     if (gesture == Gesture::kStroke)
       return {tr("let go to end the pillar; Esc drops it"), PointerShape::kPen};
     if (gesture == Gesture::kMoveItems)
       return {tr("let go to move it here; Esc puts it back"), PointerShape::kMoveNode};
     if (gesture == Gesture::kCopy)
       return {tr("let go to put the copy here; Esc drops it"), PointerShape::kMoveNode};
+    if (at.on_frame) return {tr("drag moves this plane; Esc puts it back"), PointerShape::kMoveNode};
     if (tool == Tool::kSelect) return select_hint();
     if (document.read_only())
       return {tr("read-only: somebody else writes this project"), PointerShape::kArrow};
-    if (!at.on_section) return {tr("point at a section to pick"), PointerShape::kArrow};
+    if (!at.on_section) return hint_beside_sections();
     const Fault* under = fault_at(at.under);
     if (under != nullptr && under->record.locked && !is_of_another(at.under)) {
       return {tr("%1 is locked: unlock it to change it").arg(name_of(*under)), PointerShape::kArrow};
@@ -386,11 +387,22 @@ struct Picking::State {
     if (under != nullptr)
       return {tr("click selects %1; Ctrl+click adds to the selection").arg(words_for(at.under)),
               PointerShape::kArrow};
+    if (at.under.kind == Item::Kind::kIsosurface)
+      return {tr("click selects %1").arg(words_for(at.under)), PointerShape::kArrow};
     return {tr("drag a box to select, Shift+drag a lasso; P picks, M moves"), PointerShape::kArrow};
+  }
+  // Where nothing can be picked or moved a click selects, whatever the tool.
+  std::pair<QString, PointerShape> hint_beside_sections() const {
+    const QString rest =
+        tool == Tool::kMove ? tr("point at a section to move") : tr("point at a section to pick");
+    const QString under = words_for(at.under);
+    return {under.isEmpty() ? rest : tr("click selects %1; %2").arg(under, rest), PointerShape::kArrow};
   }
   std::pair<QString, PointerShape> move_hint() const {
     if (fault_at(at.under) == nullptr)
       return {tr("drag a node, a pillar or the selection to move it"), PointerShape::kArrow};
+    if (at.under.kind == Item::Kind::kFace && !selection.faults().contains(at.under.id))
+      return {tr("click selects %1, which a drag then moves").arg(words_for(at.under)), PointerShape::kArrow};
     return {tr("drag moves %1").arg(words_for(at.under)), PointerShape::kMoveNode};
   }
   std::pair<QString, PointerShape> pick_hint() const {
@@ -420,6 +432,7 @@ struct Picking::State {
             PointerShape::kCross};
   }
   QString words_for(const Item& item) const {
+    if (item.kind == Item::Kind::kIsosurface) return tr("this isosurface");
     const Fault* fault = fault_at(item);
     if (fault == nullptr) return {};
     switch (item.kind) {
@@ -454,6 +467,7 @@ Picking::Picking(Document& document, Selection& selection, Display& display, QOb
   connect(&document, &Document::shapes_changed, this, drop_what_is_gone);
   connect(&document, &Document::faults_changed, this, drop_what_is_gone);
   connect(&selection, &Selection::active_fault_changed, this, [this] { state_->say(); });
+  connect(&selection, &Selection::changed, this, [this] { state_->say(); });
 }
 
 Picking::~Picking() = default;
@@ -593,6 +607,9 @@ bool Picking::key_release(int key) {
   } else if (key == Qt::Key_QuoteLeft) {
     s.copies = false;
   } else {
+    // What is said of the next click changes with them; the view may have use for them, too.
+    if (key == Qt::Key_Control) s.at.modifiers.setFlag(Qt::ControlModifier, false);
+    if (key == Qt::Key_Shift) s.at.modifiers.setFlag(Qt::ShiftModifier, false);
     taken = false;
   }
   s.say();
@@ -601,6 +618,11 @@ bool Picking::key_release(int key) {
 
 void Picking::leave() {
   state_->inside = false;
+  state_->say();
+}
+
+void Picking::let_keys_go() {
+  state_->navigates = state_->copies = false;
   state_->say();
 }
 

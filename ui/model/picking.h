@@ -30,7 +30,8 @@ struct Pointer {
   survey::IndexPoint place;  // on the section, or the plane of the scene under the mouse; index space
   Section section;           // that plane
   bool on_section = false;   // false: over nothing that can be picked on
-  Item under;                // node, pillar, face or nothing, within the view's catch radius
+  bool on_frame = false;     // of a plane of the scene, by which a drag moves it
+  Item under;                // node, pillar, face, isosurface or nothing, within the view's catch radius
   int segment = -1;          // of a pillar under the mouse: the segment (its first node's number)
   Qt::KeyboardModifiers modifiers;
   Qt::MouseButton button = Qt::NoButton;  // of a press or release
@@ -59,6 +60,8 @@ class Picking final : public QObject {
   bool key_press(int key, Qt::KeyboardModifiers modifiers);
   bool key_release(int key);
   void leave();
+  // The view lost the keyboard and hears no more of keys that are held.
+  void let_keys_go();
 
   // What the next click would do, in a line.
   QString hint() const;

@@ -46,13 +46,14 @@ void SceneView::Private::show_pointer() {
 
 void SceneView::Private::hover(const QPointF& pixel, const QMouseEvent& event) {
   const Under below = view.under(pixel);
-  workbench.picking.move(pointer_of(below, pixel, Qt::NoButton, event.modifiers(), event.timestamp()));
-  workbench.display.set_cursor(below.hit ? std::optional(below.place) : std::nullopt);
+  const Pointer pointer = pointer_of(below, pixel, Qt::NoButton, event.modifiers(), event.timestamp());
+  workbench.picking.move(pointer);
+  const bool is_at_place = pressed_on ? pointer.on_section : below.hit;
+  workbench.display.set_cursor(is_at_place ? std::optional(pointer.place) : std::nullopt);
   // A plane is hovered by its frame alone: it fills much of the picture.
-  workbench.selection.hover(below.item.kind == Item::Kind::kSection ? Item{} : below.item);
-  drawing.set_hot_plane(below.on_frame ? below.plane : 0);
+  if (!pressed_on) workbench.selection.hover(pointer.under);
+  drawing.set_hot_plane(pointer.on_frame ? below.plane : 0);
   show_pointer();
-  if (below.on_frame) view.setCursor(Qt::SizeAllCursor);
   view.update();
 }
 
@@ -108,6 +109,17 @@ void SceneView::Private::drag_plane(const QPointF& pixel) {
   }
 }
 
+void SceneView::Private::put_plane_back() {
+  mouse = Mouse::kNone;
+  drawing.set_hot_plane(0);
+  for (const Display::ShownSection& shown : workbench.display.sections()) {
+    if (shown.id != plane) continue;
+    Section section = shown.section;
+    section.index = plane_index;
+    return workbench.display.move_section(plane, section);
+  }
+}
+
 void SceneView::mousePressEvent(QMouseEvent* event) {
   Private& d = *d_;
   if (d.mouse != Private::Mouse::kNone) return;  // a second button changes nothing
@@ -133,6 +145,7 @@ void SceneView::mousePressEvent(QMouseEvent* event) {
       d.pointer_of(below, event->position(), event->button(), event->modifiers(), event->timestamp());
   if (d.workbench.picking.press(pointer)) {
     d.mouse = Private::Mouse::kPicking;
+    d.pressed_on = pointer.section;
   } else if (left) {
     d.mouse = Private::Mouse::kPressed;
     d.lasso = shift;
@@ -184,6 +197,7 @@ void SceneView::mouseReleaseEvent(QMouseEvent* event) {
   const Under below = under(event->position());
   const Pointer pointer =
       d.pointer_of(below, event->position(), event->button(), event->modifiers(), event->timestamp());
+  d.pressed_on.reset();
   if (was == Private::Mouse::kPicking) {
     d.workbench.picking.release(pointer);
   } else if (was == Private::Mouse::kSelecting) {
@@ -237,15 +251,17 @@ void SceneView::wheelEvent(QWheelEvent* event) {
   event->accept();
 }
 
-// Before the window's shortcuts get them: Esc while a box or lasso is drawn, and what the window's own
-// actions send here as keys (F, Home), which would find their way back to these actions for ever.
+// Before the window's shortcuts get them: Esc while a box or lasso is drawn or a plane is dragged, and what
+// the window's own actions send here as keys (F, Home), which would find their way back to these actions for
+// ever.
 bool SceneView::event(QEvent* event) {
   if (event->type() == QEvent::ShortcutOverride) {
     const auto& key = *static_cast<QKeyEvent*>(event);
-    const bool ends_selecting = d_->mouse == Private::Mouse::kSelecting && key.key() == Qt::Key_Escape;
+    const bool has_hold = d_->mouse == Private::Mouse::kSelecting || d_->mouse == Private::Mouse::kPlane;
+    const bool lets_go = has_hold && key.key() == Qt::Key_Escape;
     const bool own =
         key.modifiers() == Qt::NoModifier && (key.key() == Qt::Key_F || key.key() == Qt::Key_Home);
-    if (ends_selecting || own) {
+    if (lets_go || own) {
       event->accept();
       return true;
     }
@@ -260,6 +276,7 @@ void SceneView::keyPressEvent(QKeyEvent* event) {
     d.mouse = Private::Mouse::kNone;
     return d.stop_selecting();
   }
+  if (event->key() == Qt::Key_Escape && d.mouse == Private::Mouse::kPlane) return d.put_plane_back();
   if (d.workbench.picking.key_press(event->key(), event->modifiers())) return;
   if (event->modifiers() != Qt::NoModifier && event->modifiers() != Qt::KeypadModifier) {
     return GlWidget::keyPressEvent(event);
@@ -296,8 +313,16 @@ void SceneView::keyPressEvent(QKeyEvent* event) {
 }
 
 void SceneView::keyReleaseEvent(QKeyEvent* event) {
-  if (event->key() == Qt::Key_Space && !event->isAutoRepeat()) d_->space_held = false;
+  if (event->isAutoRepeat()) return;
+  if (event->key() == Qt::Key_Space) d_->space_held = false;
   if (!d_->workbench.picking.key_release(event->key())) GlWidget::keyReleaseEvent(event);
+}
+
+// The release of keys that are held goes elsewhere.
+void SceneView::focusOutEvent(QFocusEvent* event) {
+  d_->space_held = false;
+  d_->workbench.picking.let_keys_go();
+  GlWidget::focusOutEvent(event);
 }
 
 void SceneView::leaveEvent(QEvent* event) {

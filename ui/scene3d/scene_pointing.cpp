@@ -12,6 +12,7 @@ using render::Vec3;
 constexpr double kNodeCatch = 11;  // pixels
 constexpr double kPillarCatch = 6;
 constexpr double kFrameCatch = 5;
+constexpr double kOnSection = 0.5;  // voxels between a node and the section that it lies on
 constexpr double kBehind =
     0.01;  // share of the distance by which a node may lie behind a surface and be seen
 
@@ -45,12 +46,14 @@ bool SceneView::Private::may_be_near(Id fault, const QPointF& pixel, const rende
   return seen.adjusted(-kNodeCatch, -kNodeCatch, kNodeCatch, kNodeCatch).contains(pixel);
 }
 
-// Nodes and pillars of visible faults near the pixel, none farther than `nearest` along the view.
-std::optional<Item> SceneView::Private::node_or_pillar_at(const QPointF& pixel, double nearest,
-                                                          int* segment) const {
+// Nodes and pillars of visible faults near the pixel that are seen: none lies farther than `nearest` along
+// the view, or for a node than what is seen at its own pixel.
+std::optional<SceneView::Private::Mark> SceneView::Private::mark_at(const QPointF& pixel,
+                                                                    double nearest) const {
   const render::Camera camera = drawing.seen();
   const double heights = drawing.heights();
-  std::optional<Item> best;
+  const survey::Geometry& survey = drawing.frame()->geometry();
+  std::optional<Mark> best;
   double best_node = kNodeCatch;
   double best_pillar = kPillarCatch;
   const bool has_active = workbench.selection.active_fault() != 0;
@@ -74,18 +77,23 @@ std::optional<Item> SceneView::Private::node_or_pillar_at(const QPointF& pixel, 
         }
         const QPointF off = here - pixel;
         const double away = std::hypot(off.x(), off.y());
-        const bool seen = depth <= nearest * (1 + kBehind);
-        if ((nodes_shown || workbench.selection.pillars().contains(pillar.id)) && seen && away < best_node) {
+        const auto is_seen = [&] {
+          return depth <= nearest * (1 + kBehind) || depth <= depth_at(here, camera) * (1 + kBehind);
+        };
+        if ((nodes_shown || workbench.selection.pillars().contains(pillar.id)) && away < best_node &&
+            is_seen()) {
           best_node = away;
-          best = Item{.kind = Item::Kind::kNode, .id = pillar.nodes[n].id};
-          *segment = -1;
+          best = Mark{.item = {.kind = Item::Kind::kNode, .id = pillar.nodes[n].id},
+                      .nodes = {survey.index_of(pillar.nodes[n].position)}};
         }
         if (has_last && best_node == kNodeCatch && std::min(depth, last_depth) <= nearest * (1 + kBehind)) {
           const double beside = distance_to(pixel, last, here);
           if (beside < best_pillar) {
             best_pillar = beside;
-            best = Item{.kind = Item::Kind::kPillar, .id = pillar.id};
-            *segment = static_cast<int>(n) - 1;
+            best = Mark{.item = {.kind = Item::Kind::kPillar, .id = pillar.id},
+                        .segment = static_cast<int>(n) - 1,
+                        .nodes = {survey.index_of(pillar.nodes[n - 1].position),
+                                  survey.index_of(pillar.nodes[n].position)}};
           }
         }
         last = here;
@@ -95,6 +103,36 @@ std::optional<Item> SceneView::Private::node_or_pillar_at(const QPointF& pixel, 
     }
   }
   return best;
+}
+
+// Where the ray under a pixel meets a section; nothing beside it.
+std::optional<PlaneHit> SceneView::Private::hit_on(const Section& section, const QPointF& pixel) const {
+  const render::SceneFrame& frame = *drawing.frame();
+  return hit_of(drawing.camera.ray(pixel, size()), place_of(section, frame),
+                size_of(section, frame.geometry()));
+}
+
+// A node or pillar that lies on a section is moved on that one, also where its fault's faces stand before
+// the section or the mouse is just beside it. Of several sections the nearest.
+void SceneView::Private::put_on_its_section(const Mark& mark, const QPointF& pixel, Under* under) const {
+  bool found = false;
+  double nearest = INFINITY;
+  for (const Display::ShownSection& shown : workbench.display.sections()) {
+    const PlaneSize size = size_of(shown.section, drawing.frame()->geometry());
+    const auto lies_on = [&](const survey::IndexPoint& node) {
+      const PlanePoint at = plane_of(shown.section, node);
+      return std::abs(distance_from(shown.section, node)) <= kOnSection && at.u >= -0.5 && at.v >= -0.5 &&
+             at.u <= size.width - 0.5 && at.v <= size.height - 0.5;
+    };
+    if (!shown.in_scene || !std::ranges::all_of(mark.nodes, lies_on)) continue;
+    const auto hit = hit_on(shown.section, pixel);
+    if (hit ? hit->distance > nearest : found) continue;
+    found = true;
+    if (hit) nearest = hit->distance;
+    under->hit = under->on_plane = true;
+    under->plane = shown.id;
+    under->place = hit ? index_of(shown.section, hit->at) : mark.nodes.front();
+  }
 }
 
 Id SceneView::Private::frame_at(const QPointF& pixel) const {
@@ -170,12 +208,13 @@ SceneView::Under SceneView::under(const QPointF& pixel) const {
   const render::Camera camera = drawing.seen();
   const double depth =
       std::isfinite(nearest) ? dot(ray.from + ray.along * nearest - camera.eye, camera.forward) : INFINITY;
-  int segment = -1;
-  if (const auto mark = d_->node_or_pillar_at(pixel, depth, &segment)) {
-    result.item = *mark;
-    result.segment = segment;
+  if (const auto mark = d_->mark_at(pixel, depth)) {
+    result.item = mark->item;
+    result.segment = mark->segment;
+    d_->put_on_its_section(*mark, pixel, &result);
   } else if (const Id plane = d_->frame_at(pixel)) {
     result.on_frame = true;
+    result.on_plane = false;
     result.plane = plane;
     result.item = {.kind = Item::Kind::kSection, .id = plane};
   }
@@ -218,11 +257,16 @@ Pointer SceneView::Private::pointer_of(const Under& under, const QPointF& pixel,
   pointer.modifiers = modifiers;
   pointer.button = button;
   pointer.time = std::chrono::milliseconds(time);
-  if (under.item.kind == Item::Kind::kNode || under.item.kind == Item::Kind::kPillar ||
-      under.item.kind == Item::Kind::kFace) {
-    pointer.under = under.item;
-  }
+  if (under.item.kind != Item::Kind::kSection) pointer.under = under.item;
   pointer.segment = under.segment;
+  if (pressed_on && drawing.frame()) {
+    const auto hit = hit_on(*pressed_on, pixel);
+    pointer.section = *pressed_on;
+    pointer.on_section = hit.has_value();
+    if (hit) pointer.place = index_of(*pressed_on, hit->at);
+    return pointer;
+  }
+  pointer.on_frame = under.on_frame;
   for (const Display::ShownSection& shown : workbench.display.sections()) {
     if (shown.id != under.plane || under.plane == 0) continue;
     pointer.section = shown.section;

@@ -51,6 +51,8 @@ struct SceneView::Private {
   Qt::MouseButton pressed_button = Qt::NoButton;
   bool lasso = false;  // else a box
   bool space_held = false;
+  // On which picking took the press: what the hand does stays on it, whatever comes between.
+  std::optional<Section> pressed_on;
   QPolygonF selecting;  // box or lasso under way, in pixels
 
   void connect_models();
@@ -79,13 +81,22 @@ struct SceneView::Private {
 
   // Pointing.
   bool may_be_near(Id fault, const QPointF& pixel, const render::Camera& camera) const;
-  std::optional<Item> node_or_pillar_at(const QPointF& pixel, double nearest, int* segment) const;
+  // A node, or a pillar by one of its segments.
+  struct Mark {
+    Item item;
+    int segment = -1;
+    std::vector<survey::IndexPoint> nodes;  // the one, or the segment's two
+  };
+  std::optional<Mark> mark_at(const QPointF& pixel, double nearest) const;
+  void put_on_its_section(const Mark& mark, const QPointF& pixel, Under* under) const;
+  std::optional<PlaneHit> hit_on(const Section& section, const QPointF& pixel) const;
   Id frame_at(const QPointF& pixel) const;
   Pointer pointer_of(const Under& under, const QPointF& pixel, Qt::MouseButton button,
                      Qt::KeyboardModifiers modifiers, ulong time) const;
   void hover(const QPointF& pixel, const QMouseEvent& event);
   void begin_plane_drag(Id plane, const QPointF& pixel);
   void drag_plane(const QPointF& pixel);
+  void put_plane_back();
   double along_step(const QPointF& pixel) const;
   // factor: of the distance; what is under the pixel stays there.
   void zoom_at(const QPointF& pixel, double factor);

@@ -64,9 +64,10 @@ class SceneView final : public GlWidget {
 
   // What lies under a pixel of the view, and where.
   struct Under {
-    Item item;              // node, pillar, face or section; nothing
-    int segment = -1;       // of a pillar: its first node's number
-    bool on_plane = false;  // the nearest thing hit is a section plane, `plane` of the display
+    Item item;         // node, pillar, face or section; nothing
+    int segment = -1;  // of a pillar: its first node's number
+    // The nearest thing hit is a section plane, `plane` of the display; or the node or pillar lies on it.
+    bool on_plane = false;
     bool on_frame = false;  // a plane's frame, by which it is dragged
     Id plane = 0;
     survey::IndexPoint place;  // of what was hit, where something was
@@ -98,6 +99,7 @@ class SceneView final : public GlWidget {
   void keyPressEvent(QKeyEvent* event) override;
   void keyReleaseEvent(QKeyEvent* event) override;
   void leaveEvent(QEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
   bool event(QEvent* event) override;
   void changeEvent(QEvent* event) override;
 

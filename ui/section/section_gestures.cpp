@@ -381,6 +381,7 @@ void SectionCanvas::keyReleaseEvent(QKeyEvent* event) {
 
 void SectionCanvas::focusOutEvent(QFocusEvent* event) {
   space_ = false;
+  bench_.picking.let_keys_go();  // their release goes elsewhere
   if (!jump_.isEmpty()) {
     jump_.clear();
     update();

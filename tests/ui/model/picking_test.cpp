@@ -86,6 +86,8 @@ class PickingTest final : public QObject {
   void a_click_beside_another_fault_stays_with_the_active_one();
   void undo_while_the_button_is_down_is_survived();
   void the_hint_says_what_the_click_does();
+  void the_hint_is_true_beside_sections();
+  void the_hint_follows_keys();
   void snaps_to_samples_where_that_is_wanted();
 };
 
@@ -316,6 +318,71 @@ void PickingTest::the_hint_says_what_the_click_does() {
   QCOMPARE(desk.picking.shape(), PointerShape::kMoveNode);
   desk.picking.leave();
   QCOMPARE(desk.picking.hint(), QString());
+}
+
+void PickingTest::the_hint_is_true_beside_sections() {
+  Desk desk(true);
+  const Id fault = desk.document.faults()[0].record.id;
+  const QString name = QString::fromStdString(desk.document.faults()[0].record.name);
+  const Item face{.kind = Item::Kind::kFace, .id = fault};
+  const auto said = [&](const Pointer& p) {
+    desk.picking.move(p);
+    return desk.picking.hint();
+  };
+  const auto beside = [&](const Item& under) {
+    Pointer p = desk.at(1, 1, under);
+    p.on_section = false;
+    return p;
+  };
+  const Item surface{.kind = Item::Kind::kIsosurface, .id = 1};
+  QCOMPARE(said(beside(surface)),
+           QStringLiteral("click selects this isosurface; point at a section to pick"));
+  QCOMPARE(said(beside(face)), QStringLiteral("click selects %1; point at a section to pick").arg(name));
+  QCOMPARE(said(beside({})), QStringLiteral("point at a section to pick"));
+  desk.picking.set_tool(Tool::kMove);
+  QCOMPARE(said(beside(face)), QStringLiteral("click selects %1; point at a section to move").arg(name));
+  // On a section a drag moves the whole fault, once it is selected.
+  QCOMPARE(said(desk.at(1, 1, face)), QStringLiteral("click selects %1, which a drag then moves").arg(name));
+  desk.picking.press(desk.at(1, 1, face));
+  desk.picking.release(desk.at(1, 1, face));
+  QCOMPARE(desk.picking.hint(), QStringLiteral("drag moves %1").arg(name));
+  const std::size_t before = desk.steps();
+  desk.picking.press(desk.at(1, 1, face));
+  desk.picking.move(desk.at(4, 6, face));
+  QVERIFY(desk.picking.release(desk.at(4, 6, face)));
+  QCOMPARE(desk.steps(), before + 1);
+  desk.picking.set_tool(Tool::kSelect);
+  QCOMPARE(said(beside(surface)), QStringLiteral("click selects this isosurface"));
+  for (const Tool tool : {Tool::kSelect, Tool::kPick, Tool::kMove}) {
+    desk.picking.set_tool(tool);
+    Pointer frame = beside({});
+    frame.on_frame = true;
+    QCOMPARE(said(frame), QStringLiteral("drag moves this plane; Esc puts it back"));
+    QCOMPARE(desk.picking.shape(), PointerShape::kMoveNode);
+  }
+}
+
+void PickingTest::the_hint_follows_keys() {
+  Desk desk;
+  desk.click(5, 10);
+  desk.click(5, 30);
+  desk.picking.move(desk.at(5, 10, desk.node(0, 0)));
+  desk.picking.key_press(Qt::Key_Control, Qt::ControlModifier);
+  QCOMPARE(desk.picking.shape(), PointerShape::kDeleteNode);
+  QVERIFY(!desk.picking.key_release(Qt::Key_Control));
+  QCOMPARE(desk.picking.shape(), PointerShape::kMoveNode);
+  desk.picking.key_press(Qt::Key_Space, {});
+  QCOMPARE(desk.picking.shape(), PointerShape::kHand);
+  QVERIFY(!desk.picking.press(desk.at(5, 10, desk.node(0, 0))));
+  desk.picking.let_keys_go();
+  QCOMPARE(desk.picking.shape(), PointerShape::kMoveNode);
+  desk.picking.key_press(Qt::Key_QuoteLeft, {});
+  QCOMPARE(desk.picking.hint(), QStringLiteral("drag a pillar to copy it"));
+  desk.picking.let_keys_go();
+  QVERIFY(desk.picking.press(desk.at(5, 10, desk.node(0, 0))));
+  desk.picking.move(desk.at(9, 12));
+  QVERIFY(desk.picking.release(desk.at(9, 12)));
+  QCOMPARE(desk.document.faults()[0].pillars.size(), std::size_t{1});  // moved, not copied
 }
 
 void PickingTest::snaps_to_samples_where_that_is_wanted() {

@@ -38,6 +38,57 @@ QRect around(const MadeScene& scene, const survey::Pillar& pillar) {
   return pixels.boundingRect().toAlignedRect().adjusted(-4, -4, 4, 4);
 }
 
+// A fault of three pillars through a plane at inline 24, alone in the scene; the middle one lies on the
+// plane.
+struct Crossing {
+  explicit Crossing(MadeScene& crossed) : scene(crossed) {
+    Document& document = scene.bench.document;
+    const survey::Geometry survey = *document.survey();
+    scene.bench.display.move_section(scene.inline_plane, {.kind = Section::Kind::kInline, .index = 24});
+    document.edit("Crossing", [&](project::Interpretation& now) {
+      fault = now.add_fault("crossing");
+      for (const double i : {14.0, 24.0, 34.0}) {
+        const std::array nodes{survey.world_of({i, 20, 10}), survey.world_of({i, 20, 30}),
+                               survey.world_of({i, 20, 50})};
+        const survey::Pillar made = now.add_pillar(fault, survey::PillarKind::kInterpreted, nodes);
+        if (i == 24) node = made.nodes[1].id;
+      }
+    });
+    for (const Fault& other : document.faults()) {
+      const Id id = other.record.id;
+      scene.bench.display.set_visible({.kind = Item::Kind::kFault, .id = id}, id == fault);
+    }
+    scene.bench.selection.set_active_fault(fault);
+    scene.remake(fault);
+    Q_EMIT scene.bench.surfaces.surfaces_changed({fault});
+  }
+  survey::IndexPoint place() const {
+    const Document& document = scene.bench.document;
+    for (const survey::Pillar& pillar : document.fault(fault)->pillars) {
+      for (const survey::PillarNode& one : pillar.nodes) {
+        if (one.id == node) return document.survey()->index_of(one.position);
+      }
+    }
+    return {};
+  }
+  // A place of the plane that is hidden by what `hides` says, without a node or pillar near.
+  template <class Hides>
+  std::optional<survey::IndexPoint> hidden_place(const Hides& hides) const {
+    for (double j = 4; j < 38; ++j) {
+      for (double k = 4; k < 60; ++k) {
+        const auto at = scene.view->pixel_of({24, j, k});
+        if (at && scene.view->rect().adjusted(20, 20, -20, -20).contains(at->toPoint()) &&
+            hides(scene.view->under(at->toPoint())))
+          return survey::IndexPoint{24, j, k};
+      }
+    }
+    return {};
+  }
+
+  MadeScene& scene;
+  Id fault = 0, node = 0;
+};
+
 }  // namespace
 
 class PointingTest final : public QObject {
@@ -46,7 +97,11 @@ class PointingTest final : public QObject {
  private Q_SLOTS:
   void finds_faces_pillars_and_nodes();
   void click_selects_and_hover_highlights();
+  void nodes_before_a_face_move_on_their_section();
+  void a_drag_stays_on_the_section_that_it_began_on();
   void a_plane_follows_its_frame();
+  void escape_puts_a_plane_back();
+  void keys_are_let_go_with_the_focus();
   void wheel_zooms_at_the_mouse();
   void small_moves_turn_nothing();
   void keys_work();
@@ -119,6 +174,135 @@ void PointingTest::click_selects_and_hover_highlights() {
   scene.grabbed("selected");
   QTest::mouseClick(scene.view.get(), Qt::LeftButton, {}, QPoint(5, 5));
   QVERIFY(!scene.bench.selection.current());
+}
+
+void PointingTest::nodes_before_a_face_move_on_their_section() {
+  MadeScene scene;
+  const Crossing crossing(scene);
+  QVERIFY(scene.settle());
+  const QPointF node = *scene.view->pixel_of({24, 20, 30});
+  int before_faces = 0;
+  QPoint grip, by;
+  for (int n = 0; n < 16; ++n) {
+    const QPointF to(std::cos(n * M_PI / 8), std::sin(n * M_PI / 8));
+    const SceneView::Under under = scene.view->under(node + 8 * to);
+    QCOMPARE(under.item, (Item{.kind = Item::Kind::kNode, .id = crossing.node}));
+    QVERIFY(under.on_plane);
+    QCOMPARE(under.plane, scene.inline_plane);
+    QVERIFY(std::abs(under.place.i - 24) < 1e-6);
+    if (scene.view->under(node + 16 * to).item.kind != Item::Kind::kFace) continue;
+    ++before_faces;
+    grip = (node + 8 * to).toPoint();
+    by = (40 * to).toPoint();
+  }
+  QVERIFY(before_faces > 2);
+  // Move, then delete, where the face is nearer to the eye than the section.
+  scene.bench.picking.set_tool(Tool::kMove);
+  const std::size_t steps = scene.bench.document.history().size();
+  drag(scene.view.get(), Qt::LeftButton, {grip, grip + by / 2, grip + by});
+  QCOMPARE(scene.bench.document.history().size(), steps + 1);
+  QVERIFY(std::abs(crossing.place().i - 24) < 1e-6);
+  const QPointF now = *scene.view->pixel_of(crossing.place());
+  QVERIFY(QLineF(now, node + by).length() < 1.5);
+  scene.bench.picking.set_tool(Tool::kPick);
+  QVERIFY(scene.settle());
+  QTest::mouseClick(scene.view.get(), Qt::LeftButton, Qt::ControlModifier, grip + by);
+  QVERIFY(scene.bench.document.fault_of_node(crossing.node) == nullptr);
+}
+
+void PointingTest::a_drag_stays_on_the_section_that_it_began_on() {
+  MadeScene scene;
+  const Crossing crossing(scene);
+  scene.bench.display.move_section(scene.slice_plane, {.kind = Section::Kind::kSlice, .index = 20});
+  scene.view->look(StandardView::kOblique);
+  QVERIFY(scene.settle());
+  scene.bench.picking.set_tool(Tool::kMove);
+  const auto behind_face = crossing.hidden_place(
+      [](const SceneView::Under& under) { return under.item.kind == Item::Kind::kFace; });
+  const auto behind_slice = crossing.hidden_place(
+      [&](const SceneView::Under& under) { return under.on_plane && under.plane == scene.slice_plane; });
+  QVERIFY(behind_face && behind_slice);
+  // The topmost node of the pillar is before the slice.
+  Id top = 0;
+  for (const survey::Pillar& pillar : scene.bench.document.fault(crossing.fault)->pillars) {
+    if (pillar.nodes[1].id == crossing.node) top = pillar.nodes[0].id;
+  }
+  const auto place = [&] {
+    const survey::Geometry& survey = *scene.bench.document.survey();
+    for (const survey::Pillar& pillar : scene.bench.document.shown_pillars(crossing.fault)) {
+      if (pillar.nodes[0].id == top) return survey.index_of(pillar.nodes[0].position);
+    }
+    return survey::IndexPoint{};
+  };
+  QPoint at = scene.view->pixel_of(place())->toPoint();
+  QCOMPARE(scene.view->under(at).item, (Item{.kind = Item::Kind::kNode, .id = top}));
+  QTest::mousePress(scene.view.get(), Qt::LeftButton, {}, at);
+  for (const survey::IndexPoint& to : {*behind_slice, *behind_face, *behind_slice}) {
+    const QPoint pixel = scene.view->pixel_of(to)->toPoint();
+    QMouseEvent move(QEvent::MouseMove, pixel, scene.view->mapToGlobal(pixel), Qt::NoButton, Qt::LeftButton,
+                     Qt::NoModifier);
+    QApplication::sendEvent(scene.view.get(), &move);
+    QVERIFY(scene.bench.picking.is_dragging());
+    QVERIFY(std::abs(place().i - 24) < 1e-6);
+    QVERIFY(std::abs(place().j - to.j) < 0.5 && std::abs(place().k - to.k) < 0.8);
+    at = pixel;
+  }
+  const std::size_t steps = scene.bench.document.history().size();
+  QTest::mouseRelease(scene.view.get(), Qt::LeftButton, {}, at);
+  QCOMPARE(scene.bench.document.history().size(), steps + 1);
+  QVERIFY(std::abs(place().j - behind_slice->j) < 0.5 && std::abs(place().k - behind_slice->k) < 0.8);
+}
+
+void PointingTest::escape_puts_a_plane_back() {
+  MadeScene scene;
+  QVERIFY(scene.settle());
+  std::optional<QPoint> frame;
+  for (int y = 20; y < 680 && !frame; y += 2) {
+    for (int x = 20; x < 880 && !frame; x += 2) {
+      const SceneView::Under under = scene.view->under(QPointF(x, y));
+      if (under.on_frame && under.plane == scene.inline_plane) frame = QPoint(x, y);
+    }
+  }
+  QVERIFY(frame.has_value());
+  const Section before = scene.bench.display.sections()[0].section;
+  QTest::mouseMove(scene.view.get(), *frame + QPoint(30, 30));
+  QTest::mouseMove(scene.view.get(), *frame);
+  for (const Tool tool : {Tool::kSelect, Tool::kPick, Tool::kMove}) {
+    scene.bench.picking.set_tool(tool);
+    QVERIFY(scene.bench.picking.hint().startsWith("drag moves this plane"));
+    QCOMPARE(scene.view->cursor().shape(), Qt::SizeAllCursor);
+  }
+  scene.bench.picking.set_tool(Tool::kSelect);
+  QTest::mousePress(scene.view.get(), Qt::LeftButton, {}, *frame);
+  for (int n = 1; n <= 10; ++n) QTest::mouseMove(scene.view.get(), *frame + QPoint(8 * n, 8 * n));
+  QVERIFY(scene.bench.display.sections()[0].section != before);
+  QKeyEvent asked(QEvent::ShortcutOverride, Qt::Key_Escape, Qt::NoModifier);
+  asked.ignore();
+  QCoreApplication::sendEvent(scene.view.get(), &asked);
+  QVERIFY(asked.isAccepted());
+  QTest::keyClick(scene.view.get(), Qt::Key_Escape);
+  QCOMPARE(scene.bench.display.sections()[0].section, before);
+  QTest::mouseMove(scene.view.get(), *frame + QPoint(60, 60));
+  QTest::mouseRelease(scene.view.get(), Qt::LeftButton, {}, *frame + QPoint(60, 60));
+  QCOMPARE(scene.bench.display.sections()[0].section, before);
+}
+
+void PointingTest::keys_are_let_go_with_the_focus() {
+  MadeScene scene;
+  QVERIFY(scene.settle());
+  const QString camera = scene.view->camera_text();
+  QTest::mouseMove(scene.view.get(), QPoint(6, 6));
+  QTest::mouseMove(scene.view.get(), QPoint(5, 5));
+  const auto lose_focus = [&] {
+    QFocusEvent out(QEvent::FocusOut, Qt::ActiveWindowFocusReason);
+    QCoreApplication::sendEvent(scene.view.get(), &out);
+  };
+  QTest::keyPress(scene.view.get(), Qt::Key_Space);
+  QVERIFY(scene.bench.picking.hint().contains("Space"));
+  lose_focus();
+  QVERIFY(!scene.bench.picking.hint().contains("Space"));
+  drag(scene.view.get(), Qt::LeftButton, {{450, 350}, {480, 380}, {510, 400}});
+  QCOMPARE(scene.view->camera_text(), camera);
 }
 
 void PointingTest::a_plane_follows_its_frame() {

@@ -100,6 +100,7 @@ class SectionViewTest final : public QObject {
   void finds_what_lies_under_the_mouse();
   void pillars_fade_with_distance();
   void selects_by_click_box_and_lasso();
+  void keys_are_let_go_with_the_focus();
   void frames_the_selection();
   void an_empty_view_says_what_to_do();
   void a_missing_volume_is_told();
@@ -459,6 +460,22 @@ void SectionViewTest::selects_by_click_box_and_lasso() {
   // Less than 4 px is a click.
   drag({open.at(33, 55), open.at(33, 55) + QPoint(2, 2)}, {});
   QVERIFY(selection.nodes().empty());
+}
+
+void SectionViewTest::keys_are_let_go_with_the_focus() {
+  const SampleProject sample;
+  OpenView open(sample);
+  open.bench.picking.set_tool(Tool::kPick);
+  QTest::mouseMove(&open.canvas(), open.at(20, 20));
+  QTRY_VERIFY(!open.bench.picking.hint().isEmpty());
+  const QString hint = open.bench.picking.hint();
+  for (const Qt::Key key : {Qt::Key_Space, Qt::Key_QuoteLeft}) {
+    QTest::keyPress(&open.canvas(), key);
+    QVERIFY(open.bench.picking.hint() != hint);
+    QFocusEvent out(QEvent::FocusOut, Qt::ActiveWindowFocusReason);
+    QCoreApplication::sendEvent(&open.canvas(), &out);
+    QCOMPARE(open.bench.picking.hint(), hint);
+  }
 }
 
 void SectionViewTest::frames_the_selection() {
