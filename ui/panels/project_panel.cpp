@@ -36,6 +36,11 @@ ProjectPanel::ProjectPanel(Workbench& workbench, FindAction action, QWidget* par
     show_selection();
   });
   show_selection();
+  // What the mouse is over here is highlighted in the views.
+  setMouseTracking(true);
+  connect(this, &QTreeView::entered, this,
+          [this](const QModelIndex& index) { workbench_.selection.hover(tree_->item_of(index)); });
+  connect(this, &QTreeView::viewportEntered, this, [this] { workbench_.selection.hover({}); });
 }
 
 void ProjectPanel::rename_current() {
@@ -93,6 +98,11 @@ void ProjectPanel::drawBranches(QPainter* painter, const QRect& rect, const QMod
   if (!isExpanded(index)) painter->rotate(-90);
   painter->drawPolygon(QPolygonF{{-3.5, -2}, {3.5, -2}, {0, 2.5}});
   painter->restore();
+}
+
+bool ProjectPanel::viewportEvent(QEvent* event) {
+  if (event->type() == QEvent::Leave) workbench_.selection.hover({});
+  return QTreeView::viewportEvent(event);
 }
 
 void ProjectPanel::selectionChanged(const QItemSelection& selected, const QItemSelection& deselected) {

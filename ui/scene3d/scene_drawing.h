@@ -126,6 +126,11 @@ class SceneDrawing {
   void refresh_flat(const QSizeF& view, TextImages& texts, double pixel, bool with_state);
   DrawingMarks pillar_marks(Id fault, bool loose) const;
   void add_frame_lines(std::vector<Line>& lines, Id plane) const;
+  void add_fault_lines(std::vector<Line>& lines, Id fault) const;
+  // The edges of a face that is shown.
+  void add_face_lines(std::vector<Line>& lines, const Item& face, const QColor& colour, float width) const;
+  void add_pillar_lines(std::vector<Line>& lines, const survey::Pillar& pillar, const QColor& colour,
+                        float width) const;
   std::vector<Step> steps_of(const std::set<Id>& without_faults, Id without_plane) const;
   void start(Layer& layer, const std::set<Id>& without_faults, Id without_plane);
   bool go_on(Layer& layer, const Pass& pass);

@@ -371,47 +371,40 @@ void SceneDrawing::draw_flat(const Pass& pass) {
   marks_.draw(*gl_, pass, selecting_sprite_);
 }
 
+// A fault without an outline, or one whose outline is long to find, shows by its pillars.
+void SceneDrawing::add_fault_lines(std::vector<Line>& lines, Id fault) const {
+  if (!workbench_.display.is_visible({.kind = Item::Kind::kFault, .id = fault})) return;
+  const FaultGeometry* mesh = meshes_.geometry(fault);
+  if (mesh == nullptr || mesh->face_count() == 0 || mesh->face_count() > kLooseTriangles) {
+    for (const survey::Pillar& pillar : workbench_.document.shown_pillars(fault))
+      add_pillar_lines(lines, pillar, colours_.text, 2.4F);
+    return;
+  }
+  for (std::size_t n = 0; n + 1 < mesh->outline().size(); n += 2)
+    lines.push_back({mesh->outline()[n], mesh->outline()[n + 1], rgba_of(colours_.text), 1.6F});
+}
+
 void SceneDrawing::draw_hover(const Pass& pass) {
   const Item& hovered = workbench_.selection.hovered();
   std::vector<Line> lines;
   std::vector<Dot> dots;
-  if (hovered.kind == Item::Kind::kFace || hovered.kind == Item::Kind::kFault) {
-    const FaultGeometry* mesh = meshes_.geometry(hovered.id);
-    const bool outlined = mesh != nullptr && mesh->face_count() <= kLooseTriangles;
-    for (std::size_t n = 0; outlined && n + 1 < mesh->outline().size(); n += 2) {
-      lines.push_back({mesh->outline()[n], mesh->outline()[n + 1], rgba_of(colours_.text), 1.6F});
-    }
-    if (mesh != nullptr && hovered.kind == Item::Kind::kFace) {
-      const auto& faces = mesh->surface().faces;
-      // By panel, then number.
-      const auto face =
-          std::ranges::lower_bound(faces, std::pair(hovered.panel, hovered.number), {},
-                                   [](const auto& f) { return std::pair<Id, int>(f.panel, f.n); });
-      if (face != faces.end() && face->panel == hovered.panel && face->n == hovered.number) {
-        const auto at = static_cast<std::size_t>(face - faces.begin());
-        for (std::size_t n = 0; n < 3; ++n) {
-          lines.push_back({mesh->positions()[mesh->corners()[3 * at + n]],
-                           mesh->positions()[mesh->corners()[3 * at + (n + 1) % 3]],
-                           rgba_of(QColor(Qt::white)), 2.4F});
-        }
-      }
-    }
-  }
+  if (hovered.kind == Item::Kind::kFace || hovered.kind == Item::Kind::kFault)
+    add_fault_lines(lines, hovered.id);
+  if (hovered.kind == Item::Kind::kFace) add_face_lines(lines, hovered, Qt::white, 2.4F);
   if (hovered.kind == Item::Kind::kPillar || hovered.kind == Item::Kind::kNode) {
     const Fault* fault = hovered.kind == Item::Kind::kPillar ? workbench_.document.fault_of_pillar(hovered.id)
                                                              : workbench_.document.fault_of_node(hovered.id);
     for (const survey::Pillar& pillar : fault == nullptr
                                             ? std::vector<survey::Pillar>()
                                             : workbench_.document.shown_pillars(fault->record.id)) {
-      for (std::size_t n = 0; n < pillar.nodes.size(); ++n) {
-        const render::Vec3f at(flat_of(pillar.nodes[n].position));
-        if (hovered.kind == Item::Kind::kNode && pillar.nodes[n].id == hovered.id) {
-          dots.push_back({at, rgba_of(QColor(Qt::white)), rgba_of(colours_.accent), 12.0F});
-        }
-        if (hovered.kind == Item::Kind::kPillar && pillar.id == hovered.id && n > 0) {
-          lines.push_back(
-              {render::Vec3f(flat_of(pillar.nodes[n - 1].position)), at, rgba_of(colours_.accent), 3.0F});
-        }
+      if (hovered.kind == Item::Kind::kPillar) {
+        if (pillar.id == hovered.id) add_pillar_lines(lines, pillar, colours_.accent, 3.0F);
+        continue;
+      }
+      for (const survey::PillarNode& node : pillar.nodes) {
+        if (node.id != hovered.id) continue;
+        dots.push_back({render::Vec3f(flat_of(node.position)), rgba_of(QColor(Qt::white)),
+                        rgba_of(colours_.accent), 12.0F});
       }
     }
   }

@@ -66,6 +66,30 @@ void SceneDrawing::add_frame_lines(std::vector<Line>& lines, Id plane) const {
   }
 }
 
+void SceneDrawing::add_face_lines(std::vector<Line>& lines, const Item& face, const QColor& colour,
+                                  float width) const {
+  const FaultGeometry* mesh = meshes_.geometry(face.id);
+  if (mesh == nullptr || !workbench_.display.is_visible({.kind = Item::Kind::kFault, .id = face.id})) return;
+  const auto& faces = mesh->surface().faces;
+  // By panel, then number.
+  const auto found = std::ranges::lower_bound(faces, std::pair(face.panel, face.number), {},
+                                              [](const auto& f) { return std::pair<Id, int>(f.panel, f.n); });
+  if (found == faces.end() || found->panel != face.panel || found->n != face.number) return;
+  const auto at = static_cast<std::size_t>(found - faces.begin());
+  for (std::size_t n = 0; n < 3; ++n) {
+    lines.push_back({mesh->positions()[mesh->corners()[3 * at + n]],
+                     mesh->positions()[mesh->corners()[3 * at + (n + 1) % 3]], rgba_of(colour), width});
+  }
+}
+
+void SceneDrawing::add_pillar_lines(std::vector<Line>& lines, const survey::Pillar& pillar,
+                                    const QColor& colour, float width) const {
+  for (std::size_t n = 1; n < pillar.nodes.size(); ++n) {
+    lines.push_back({Vec3f(flat_of(pillar.nodes[n - 1].position)), Vec3f(flat_of(pillar.nodes[n].position)),
+                     rgba_of(colour), width});
+  }
+}
+
 void SceneDrawing::refresh_static_marks() {
   if (!std::exchange(static_marks_old_, false)) return;
   const std::set<Id> loose = loose_faults();
@@ -116,6 +140,8 @@ void SceneDrawing::refresh_loose_marks() {
       marks.lines.push_back({outline[n], outline[n + 1], rgba_of(colours_.accent), 1.6F});
     }
   }
+  const Item& current = workbench_.selection.current();
+  if (current.kind == Item::Kind::kFace) add_face_lines(marks.lines, current, colours_.accent, 4.0F);
   const auto flat_point = [this](const survey::IndexPoint& p) { return Vec3f(flat_->scene_of(p)); };
   const std::vector<survey::IndexPoint>& stroke = workbench_.picking.stroke();
   for (std::size_t n = 1; flat_ && n < stroke.size(); ++n) {

@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kNodePixels = 8;
 constexpr double kHoveredPixels = 11;
+constexpr double kHoveredLine = 3.5;
+constexpr double kSelectedLine = 5;  // is seen beside a hovered one
 
 // Liang and Barsky's: painters are slow and coarse with ends that are far outside.
 std::optional<QLineF> clipped(const QLineF& line, const QRectF& to) {
@@ -78,6 +80,15 @@ void draw_cut(QPainter& painter, const std::vector<CutLine>& lines, const ViewTr
   }
 }
 
+std::vector<CutLine> cut_of_face(const ShapedFault& fault, const Item& face) {
+  std::vector<CutLine> lines;
+  for (const CutSegment& segment : fault.cut) {
+    const project::MeshFace& one = fault.surface->faces[segment.face];
+    if (one.panel == face.panel && one.n == face.number) lines.push_back({segment[0], segment[1]});
+  }
+  return lines;
+}
+
 // 1 on the section, falling to 0 at the fade distance.
 double strength_at(double distance, double fade_distance) {
   const double off = std::abs(distance);
@@ -109,6 +120,14 @@ void draw_segment(QPainter& painter, const ShapedNode& a, const ShapedNode& b, c
   }
 }
 
+void draw_pillar_line(QPainter& painter, const ShapedPillar& pillar, const ViewTransform& view,
+                      const QColor& colour, const FaultDrawing& how) {
+  for (std::size_t n = 0; n + 1 < pillar.nodes.size(); ++n) {
+    draw_segment(painter, pillar.nodes[n], pillar.nodes[n + 1], view, colour, kHoveredLine, false,
+                 how.fade_distance);
+  }
+}
+
 void draw_node(QPainter& painter, const QPointF& at, double pixels, const QColor& fill,
                const QColor& outline) {
   painter.setPen(QPen(outline, 1.4));
@@ -122,6 +141,10 @@ void draw_fault(QPainter& painter, const ShapedFault& fault, const ViewTransform
                 const FaultDrawing& how, const std::set<Id>& selected_pillars,
                 const std::set<Id>& selected_nodes) {
   draw_cut(painter, fault.lines, view, QPen(how.colour, 2, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin));
+  if (how.face) {
+    draw_cut(painter, cut_of_face(fault, how.face), view,
+             QPen(how.accent, kSelectedLine, Qt::SolidLine, Qt::RoundCap));
+  }
   if (!how.shows_pillars) return;
   for (const ShapedPillar& pillar : fault.pillars) {
     const bool selected = selected_pillars.contains(pillar.id);
@@ -148,15 +171,16 @@ void draw_hovered(QPainter& painter, const ShapedFault& fault, const Item& item,
                   const FaultDrawing& how) {
   if (item.kind == Item::Kind::kFault || item.kind == Item::Kind::kFace) {
     draw_cut(painter, fault.lines, view,
-             QPen(how.colour.lighter(125), 3.5, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin));
+             QPen(how.colour.lighter(125), kHoveredLine, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin));
+    // Its pillars are all that there is to see of it.
+    for (const ShapedPillar& pillar : fault.pillars) {
+      if (fault.lines.empty()) draw_pillar_line(painter, pillar, view, how.colour.lighter(125), how);
+    }
     return;
   }
   for (const ShapedPillar& pillar : fault.pillars) {
     if (item.kind == Item::Kind::kPillar && item.id == pillar.id) {
-      for (std::size_t n = 0; n + 1 < pillar.nodes.size(); ++n) {
-        draw_segment(painter, pillar.nodes[n], pillar.nodes[n + 1], view, how.accent, 3.5, false,
-                     how.fade_distance);
-      }
+      draw_pillar_line(painter, pillar, view, how.accent, how);
       for (const ShapedNode& node : pillar.nodes) {
         if (node.on_section())
           draw_node(painter, view.to_pixels(node.at), kNodePixels, how.accent, how.outline);

@@ -66,6 +66,7 @@ struct FaultDrawing {
   bool is_active = false;
   bool shows_pillars = true;
   double fade_distance = 5;  // voxels
+  Item face;                 // the selected one, where it is of this fault
 };
 void draw_fault(QPainter& painter, const ShapedFault& fault, const ViewTransform& view,
                 const FaultDrawing& how, const std::set<Id>& selected_pillars,

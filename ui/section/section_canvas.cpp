@@ -284,6 +284,8 @@ FaultDrawing SectionCanvas::drawing_of(const Fault& fault) const {
   how.active = Qt::white;
   how.is_active = bench_.selection.active_fault() == fault.record.id;
   how.fade_distance = bench_.display.fade_distance();
+  const Item& current = bench_.selection.current();
+  if (current.kind == Item::Kind::kFace && current.id == fault.record.id) how.face = current;
   return how;
 }
 

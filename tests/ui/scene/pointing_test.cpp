@@ -41,7 +41,7 @@ QRect around(const MadeScene& scene, const survey::Pillar& pillar) {
 // A fault of three pillars through a plane at inline 24, alone in the scene; the middle one lies on the
 // plane.
 struct Crossing {
-  explicit Crossing(MadeScene& crossed) : scene(crossed) {
+  explicit Crossing(MadeScene& crossed, bool has_faces = true) : scene(crossed) {
     Document& document = scene.bench.document;
     const survey::Geometry survey = *document.survey();
     scene.bench.display.move_section(scene.inline_plane, {.kind = Section::Kind::kInline, .index = 24});
@@ -59,6 +59,7 @@ struct Crossing {
       scene.bench.display.set_visible({.kind = Item::Kind::kFault, .id = id}, id == fault);
     }
     scene.bench.selection.set_active_fault(fault);
+    if (!has_faces) return;
     scene.remake(fault);
     Q_EMIT scene.bench.surfaces.surfaces_changed({fault});
   }
@@ -89,6 +90,30 @@ struct Crossing {
   Id fault = 0, node = 0;
 };
 
+int differing(const QImage& a, const QImage& b) {
+  int count = 0;
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) count += a.pixel(x, y) != b.pixel(x, y) ? 1 : 0;
+  }
+  return count;
+}
+
+// How many of a triangle's edges have, at their middles, the colour of what is selected.
+int accented_edges(const QImage& image, const std::array<QPointF, 3>& middles) {
+  const QColor accent = MadeScene::dark().color(QPalette::Highlight);
+  const auto is_near = [&](const QColor& colour) {
+    return std::abs(colour.red() - accent.red()) + std::abs(colour.green() - accent.green()) +
+               std::abs(colour.blue() - accent.blue()) <
+           30;
+  };
+  return static_cast<int>(std::ranges::count_if(middles, [&](const QPointF& at) {
+    for (int n = 0; n < 9; ++n) {
+      if (is_near(image.pixelColor(at.toPoint() + QPoint(n % 3 - 1, n / 3 - 1)))) return true;
+    }
+    return false;
+  }));
+}
+
 }  // namespace
 
 class PointingTest final : public QObject {
@@ -97,6 +122,8 @@ class PointingTest final : public QObject {
  private Q_SLOTS:
   void finds_faces_pillars_and_nodes();
   void click_selects_and_hover_highlights();
+  void a_selected_face_is_outlined();
+  void a_hovered_fault_without_faces_shows_by_its_pillars();
   void nodes_before_a_face_move_on_their_section();
   void a_drag_stays_on_the_section_that_it_began_on();
   void a_plane_follows_its_frame();
@@ -174,6 +201,65 @@ void PointingTest::click_selects_and_hover_highlights() {
   scene.grabbed("selected");
   QTest::mouseClick(scene.view.get(), Qt::LeftButton, {}, QPoint(5, 5));
   QVERIFY(!scene.bench.selection.current());
+}
+
+void PointingTest::a_selected_face_is_outlined() {
+  MadeScene scene({48, 40, 64}, 6, 2);
+  const Id fault = scene.first_fault();
+  scene.bench.selection.set_active_fault(fault);
+  QVERIFY(scene.settle());
+  const survey::Geometry& survey = *scene.bench.document.survey();
+  const FaultSurface& surface = *scene.surfaces[fault];
+  const QImage before = scene.grabbed("face_not_selected");
+  // A face that is seen as a whole, in the midst of others.
+  Item face;
+  std::array<QPointF, 3> middles;
+  for (const project::MeshFace& one : surface.faces) {
+    const auto middle_of = [&](std::size_t n) {
+      const auto& a = surface.vertices[static_cast<std::size_t>(one.vertices[n])];
+      const auto& b = surface.vertices[static_cast<std::size_t>(one.vertices[(n + 1) % 3])];
+      return *scene.view->pixel_of(survey.index_of({(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2}));
+    };
+    middles = {middle_of(0), middle_of(1), middle_of(2)};
+    const bool is_seen = std::ranges::all_of(middles, [&](const QPointF& at) {
+      const Item under = scene.view->under(at).item;
+      return under.kind == Item::Kind::kFace && under.id == fault &&
+             scene.view->rect().contains(at.toPoint());
+    });
+    const double size = QLineF(middles[0], middles[1]).length() + QLineF(middles[0], middles[2]).length();
+    if (!is_seen || size < 30 || accented_edges(before, middles) != 0) continue;
+    face = {.kind = Item::Kind::kFace, .id = fault, .panel = one.panel, .number = one.n};
+    break;
+  }
+  QVERIFY(face);
+  scene.bench.selection.select(face);
+  QVERIFY(scene.settle());
+  QCOMPARE(accented_edges(scene.grabbed("face_selected"), middles), 3);
+  scene.bench.display.set_visible({.kind = Item::Kind::kFault, .id = fault}, false);
+  QVERIFY(scene.settle());
+  QCOMPARE(accented_edges(scene.grabbed("face_hidden"), middles), 0);
+  scene.bench.display.set_visible({.kind = Item::Kind::kFault, .id = fault}, true);
+  scene.bench.selection.clear();
+  QVERIFY(scene.settle());
+  QCOMPARE(accented_edges(scene.grabbed("face_left"), middles), 0);
+}
+
+void PointingTest::a_hovered_fault_without_faces_shows_by_its_pillars() {
+  MadeScene scene;
+  const Crossing crossing(scene, false);
+  scene.bench.selection.set_active_fault(0);
+  QVERIFY(scene.settle());
+  const Item fault{.kind = Item::Kind::kFault, .id = crossing.fault};
+  const QImage before = scene.grabbed("fault_not_hovered");
+  scene.bench.selection.hover(fault);
+  QVERIFY(differing(before, scene.grabbed("fault_hovered")) > 200);
+  scene.bench.selection.hover({});
+  QCOMPARE(differing(before, scene.grabbed("fault_left")), 0);
+  scene.bench.display.set_visible(fault, false);
+  QVERIFY(scene.settle());
+  const QImage hidden = scene.grabbed("fault_hidden");
+  scene.bench.selection.hover(fault);
+  QCOMPARE(differing(hidden, scene.grabbed("fault_hidden_hovered")), 0);
 }
 
 void PointingTest::nodes_before_a_face_move_on_their_section() {

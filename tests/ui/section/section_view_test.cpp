@@ -70,6 +70,14 @@ struct Picked {
   Id fault = 0, on_section = 0, other_fault = 0;
 };
 
+int accented(const QImage& image, const QColor& accent, const QRect& box) {
+  int count = 0;
+  for (int y = box.top(); y <= box.bottom(); ++y) {
+    for (int x = box.left(); x <= box.right(); ++x) count += image.pixelColor(x, y) == accent ? 1 : 0;
+  }
+  return count;
+}
+
 int coloured(const QImage& image, const QRect& box) {
   int count = 0;
   for (int y = box.top(); y <= box.bottom(); ++y) {
@@ -100,6 +108,8 @@ class SectionViewTest final : public QObject {
   void finds_what_lies_under_the_mouse();
   void pillars_fade_with_distance();
   void selects_by_click_box_and_lasso();
+  void a_selected_face_has_a_thicker_cut();
+  void a_hovered_fault_without_a_cut_shows_by_its_pillars();
   void keys_are_let_go_with_the_focus();
   void frames_the_selection();
   void an_empty_view_says_what_to_do();
@@ -460,6 +470,54 @@ void SectionViewTest::selects_by_click_box_and_lasso() {
   // Less than 4 px is a click.
   drag({open.at(33, 55), open.at(33, 55) + QPoint(2, 2)}, {});
   QVERIFY(selection.nodes().empty());
+}
+
+void SectionViewTest::a_selected_face_has_a_thicker_cut() {
+  const SampleProject sample;
+  OpenView open(sample);
+  QPoint at;
+  const auto finds_a_cut = [&] {
+    const QRect area = open.canvas().view().area().toRect().adjusted(30, 30, -30, -30);
+    for (int y = area.top(); y < area.bottom(); y += 3) {
+      for (int x = area.left(); x < area.right(); x += 3) {
+        if (open.canvas().hit(QPointF(x, y)).item.kind != Item::Kind::kFace) continue;
+        at = {x, y};
+        return true;
+      }
+    }
+    return false;
+  };
+  QTRY_VERIFY(finds_a_cut());
+  const Item face = open.canvas().hit(at).item;
+  const QColor accent = open.canvas().palette().color(QPalette::Highlight);
+  const QRect near(at - QPoint(9, 9), QSize(19, 19));
+  const auto shown = [&] { return accented(open.canvas().grab().toImage(), accent, near); };
+  open.bench.selection.select({.kind = Item::Kind::kFault, .id = face.id});
+  QCOMPARE(shown(), 0);
+  QTest::mouseClick(&open.canvas(), Qt::LeftButton, {}, at);
+  QVERIFY(open.bench.selection.current() == face);
+  open.bench.selection.hover({});
+  const int selected = shown();
+  QVERIFY2(selected > 8, qPrintable(QString::number(selected)));
+  open.bench.selection.hover(face);
+  QVERIFY(shown() > 0);  // seen beside what is hovered
+  open.bench.selection.clear();
+  open.bench.selection.hover({});
+  QCOMPARE(shown(), 0);
+}
+
+void SectionViewTest::a_hovered_fault_without_a_cut_shows_by_its_pillars() {
+  const SampleProject sample;
+  OpenView open(sample);
+  const Picked picked(open.bench);
+  open.bench.selection.set_active_fault(0);
+  const QPoint middle = open.at(17.5, 40);
+  const QRect near(middle - QPoint(6, 6), QSize(13, 13));
+  const int before = coloured(open.canvas().grab().toImage(), near);
+  open.bench.selection.hover({.kind = Item::Kind::kFault, .id = picked.fault});
+  QVERIFY(coloured(open.canvas().grab().toImage(), near) > before);
+  open.bench.selection.hover({});
+  QCOMPARE(coloured(open.canvas().grab().toImage(), near), before);
 }
 
 void SectionViewTest::keys_are_let_go_with_the_focus() {

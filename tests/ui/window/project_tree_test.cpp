@@ -36,6 +36,7 @@ class ProjectTreeTest final : public QObject {
   void history_follows();
   void selects_both_ways();
   void a_click_on_the_ring_hides();
+  void rows_under_the_mouse_are_hovered();
 };
 
 void ProjectTreeTest::lists_what_there_is() {
@@ -199,6 +200,35 @@ void ProjectTreeTest::a_click_on_the_ring_hides() {
   QTest::keyClicks(field, QStringLiteral("by hand"));
   QTest::keyClick(field, Qt::Key_Return);
   QTRY_COMPARE(bench->document.fault(fault)->record.name, std::string("by hand"));
+}
+
+void ProjectTreeTest::rows_under_the_mouse_are_hovered() {
+  const SampleProject sample;
+  const auto bench = open(sample);
+  ProjectPanel panel(*bench, [](const QString&) -> QAction* { return nullptr; });
+  panel.resize(300, 500);
+  panel.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&panel));
+  const Item& hovered = bench->selection.hovered();
+  const auto move_to = [&](const QPoint& at) {
+    QMouseEvent event(QEvent::MouseMove, at, panel.viewport()->mapToGlobal(at), Qt::NoButton, Qt::NoButton,
+                      Qt::NoModifier);
+    QCoreApplication::sendEvent(panel.viewport(), &event);
+  };
+  for (const Fault& fault : bench->document.faults()) {
+    const Item item = fault_item(fault.record.id);
+    move_to(panel.visualRect(panel.tree().index_of(item)).center());
+    QCOMPARE(hovered, item);
+  }
+  move_to(panel.visualRect(panel.tree().index(0, 0)).center());
+  QVERIFY(!hovered);  // a heading
+  move_to(
+      panel.visualRect(panel.tree().index_of(fault_item(bench->document.faults()[0].record.id))).center());
+  QVERIFY(hovered);
+  QVERIFY(!bench->selection.current());
+  QEvent leave(QEvent::Leave);
+  QCoreApplication::sendEvent(panel.viewport(), &leave);
+  QVERIFY(!hovered);
 }
 
 static const RegisterTest<ProjectTreeTest> kRegistered;
