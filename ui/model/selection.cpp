@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "ui/model/fault_commands.h"
+
 namespace footwall::ui {
 namespace {
 
@@ -49,6 +51,16 @@ void Selection::select_all(std::set<Id> faults, std::set<Id> pillars, std::set<I
   if (pillars_.size() == 1) current_ = {.kind = Item::Kind::kPillar, .id = *pillars_.begin()};
   if (nodes_.size() == 1) current_ = {.kind = Item::Kind::kNode, .id = *nodes_.begin()};
   announce(faults_.size() == 1 ? *faults_.begin() : active_fault_);
+}
+
+void Selection::select_by_lasso(std::set<Id> faults, std::set<Id> pillars, std::set<Id> nodes) {
+  std::set<Id> unassigned = pillars;
+  std::erase_if(unassigned, [this](Id pillar) {
+    const Fault* fault = document_.fault_of_pillar(pillar);
+    return fault == nullptr || !is_unassigned(*fault);
+  });
+  select_all(std::move(faults), std::move(pillars), std::move(nodes));
+  if (!unassigned.empty() && !document_.read_only()) Q_EMIT unassigned_caught(unassigned);
 }
 
 void Selection::set_active_fault(Id fault) {

@@ -50,6 +50,8 @@ class Selection final : public QObject {
   // extend: adds, or takes away what was selected already, as Ctrl does.
   void select(const Item& item, bool extend = false);
   void select_all(std::set<Id> faults, std::set<Id> pillars, std::set<Id> nodes, bool extend = false);
+  // What a lasso caught, instead of what was selected; says so where pillars without a fault are among it.
+  void select_by_lasso(std::set<Id> faults, std::set<Id> pillars, std::set<Id> nodes);
   void set_active_fault(Id fault);
   void clear();
   void hover(const Item& item);
@@ -58,6 +60,8 @@ class Selection final : public QObject {
   void changed();
   void active_fault_changed(footwall::ui::Id fault);
   void hover_changed();
+  // A lasso caught these, which belong to no fault yet and may be given to one.
+  void unassigned_caught(const std::set<footwall::ui::Id>& pillars);
 
  private:
   void drop_what_is_gone();

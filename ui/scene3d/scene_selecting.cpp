@@ -115,7 +115,10 @@ void SceneView::Private::select_within(const QPolygonF& region, bool extend) {
       }
     }
   }
-  workbench.selection.select_all(std::move(faults), std::move(pillars), std::move(nodes), extend);
+  Selection& selection = workbench.selection;
+  if (lasso && !extend)
+    return selection.select_by_lasso(std::move(faults), std::move(pillars), std::move(nodes));
+  selection.select_all(std::move(faults), std::move(pillars), std::move(nodes), extend);
 }
 
 }  // namespace footwall::ui

@@ -211,24 +211,32 @@ void SectionCanvas::select_under(const Pointer& pointer) {
   }
 }
 
-// Pillars whose nodes on this section all lie in the region, and single nodes of the others.
+// Pillars whose nodes on and near this section, as far as pillars are drawn, all lie in the region; of the
+// others single nodes on the section. What a pillar has far from here is not seen and does not count.
 void SectionCanvas::select_within(const QPolygonF& region, bool extend) {
+  const double near = bench_.display.fade_distance();
   std::set<Id> pillars, nodes;
   for (const Fault& fault : bench_.document.faults()) {
     if (!bench_.display.is_visible({.kind = Item::Kind::kFault, .id = fault.record.id})) continue;
     for (const ShapedPillar& pillar : shapes_.of(fault.record.id).pillars) {
+      std::size_t here = 0, caught = 0;
       std::set<Id> inside;
       for (const ShapedNode& node : pillar.nodes) {
-        if (node.on_section() && region.containsPoint(view_.to_pixels(node.at), Qt::OddEvenFill))
-          inside.insert(node.id);
+        if (!node.on_section() && !(std::abs(node.distance) < near)) continue;
+        ++here;
+        if (!region.containsPoint(view_.to_pixels(node.at), Qt::OddEvenFill)) continue;
+        ++caught;
+        if (node.on_section()) inside.insert(node.id);
       }
-      if (!pillar.nodes.empty() && inside.size() == pillar.nodes.size()) {
+      if (caught != 0 && caught == here) {
         pillars.insert(pillar.id);
       } else {
         nodes.merge(inside);
       }
     }
   }
+  const bool lasso = pressed_.modifiers.testFlag(Qt::ShiftModifier);
+  if (lasso && !extend) return bench_.selection.select_by_lasso({}, std::move(pillars), std::move(nodes));
   bench_.selection.select_all({}, std::move(pillars), std::move(nodes), extend);
 }
 

@@ -9,6 +9,7 @@
 #include <QJsonDocument>
 #include <QKeyEvent>
 #include <QLabel>
+#include <QMenu>
 #include <QMenuBar>
 #include <QMimeData>
 #include <QStatusBar>
@@ -22,6 +23,7 @@
 #include "ui/model/fault_commands.h"
 #include "ui/model/project_job.h"
 #include "ui/window/actions.h"
+#include "ui/window/assign_menu.h"
 #include "ui/window/banner.h"
 #include "ui/window/dialogs.h"
 #include "ui/window/docks.h"
@@ -225,6 +227,9 @@ void MainWindow::connect_workbench() {
     }
   });
   connect(&bench.selection, &Selection::changed, actions_, &Actions::refresh);
+  connect(&bench.selection, &Selection::unassigned_caught, this, [this](const std::set<Id>& pillars) {
+    make_assign_menu(*workbench_, pillars, views_)->popup(QCursor::pos());
+  });
   connect(&bench.picking, &Picking::tool_changed, actions_, &Actions::refresh);
   for (const auto signal : {&Display::samples_changed, &Display::faces_changed, &Display::scene_changed}) {
     connect(&bench.display, signal, actions_, &Actions::refresh);

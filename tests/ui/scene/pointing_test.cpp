@@ -566,12 +566,18 @@ void PointingTest::a_lasso_assigns_pillars_in_one_step() {
   }
   scene.bench.display.remove_section(scene.inline_plane);
   QVERIFY(scene.settle());
+  const QSignalSpy caught(&scene.bench.selection, &Selection::unassigned_caught);
   QRect box;
   for (const Id id : loose) box = box.united(around(scene, *document.pillar(id)));
   drag(scene.view.get(), Qt::LeftButton,
        {box.topLeft(), box.topRight(), box.bottomRight(), box.bottomLeft(), box.topLeft() + QPoint(0, 1)},
        Qt::ShiftModifier);
   QCOMPARE(scene.bench.selection.pillars(), loose);
+  QCOMPARE(caught.size(), 1);
+  QCOMPARE(caught[0][0].value<std::set<Id>>(), loose);
+  drag(scene.view.get(), Qt::LeftButton, {box.topLeft(), box.center(), box.bottomRight()});
+  QCOMPARE(scene.bench.selection.pillars(), loose);
+  QCOMPARE(caught.size(), 1);  // a box only selects
   const std::size_t steps = document.history().size();
   const Id made = split_fault(document, scene.bench.selection.pillars());
   QVERIFY(made != 0);

@@ -108,6 +108,7 @@ class SectionViewTest final : public QObject {
   void finds_what_lies_under_the_mouse();
   void pillars_fade_with_distance();
   void selects_by_click_box_and_lasso();
+  void a_lasso_catches_what_is_seen_of_pillars();
   void a_selected_face_has_a_thicker_cut();
   void a_hovered_fault_without_a_cut_shows_by_its_pillars();
   void keys_are_let_go_with_the_focus();
@@ -470,6 +471,57 @@ void SectionViewTest::selects_by_click_box_and_lasso() {
   // Less than 4 px is a click.
   drag({open.at(33, 55), open.at(33, 55) + QPoint(2, 2)}, {});
   QVERIFY(selection.nodes().empty());
+}
+
+void SectionViewTest::a_lasso_catches_what_is_seen_of_pillars() {
+  const SampleProject sample;
+  OpenView open(sample);
+  const Picked picked(open.bench);
+  Document& document = open.bench.document;
+  const survey::Geometry survey = *document.survey();
+  // Unassigned: one goes off the section to line 44, far beyond the fade distance, one is near on line 24.
+  Id off = 0, near = 0;
+  document.edit(QStringLiteral("Pick"), [&](project::Interpretation& now) {
+    const Id unassigned = now.add_fault(kUnassigned);
+    const std::array far_nodes{survey.world_of({20, 34, 10}), survey.world_of({20, 34, 30}),
+                               survey.world_of({44, 5, 50})};
+    off = now.add_pillar(unassigned, survey::PillarKind::kInterpreted, far_nodes).id;
+    const std::array near_nodes{survey.world_of({24, 36, 12}), survey.world_of({24, 36, 28})};
+    near = now.add_pillar(unassigned, survey::PillarKind::kInterpreted, near_nodes).id;
+  });
+  open.bench.display.set_fade_distance(15);
+  QSignalSpy caught(&open.bench.selection, &Selection::unassigned_caught);
+  const auto lasso = [&](double left, double top, double right, double bottom, Qt::KeyboardModifiers more) {
+    const std::vector<QPoint> path{open.at(left, top), open.at(right, top), open.at(right, bottom),
+                                   open.at(left, bottom), open.at(left, top + 1)};
+    const Qt::KeyboardModifiers held = Qt::ShiftModifier | more;
+    QTest::mousePress(&open.canvas(), Qt::LeftButton, held, path.front());
+    for (const QPoint& at : path) {
+      QMouseEvent move(QEvent::MouseMove, at, open.canvas().mapToGlobal(at), Qt::NoButton, Qt::LeftButton,
+                       held);
+      QApplication::sendEvent(&open.canvas(), &move);
+    }
+    QTest::mouseRelease(&open.canvas(), Qt::LeftButton, held, path.back());
+  };
+  const Selection& selection = open.bench.selection;
+  lasso(32, 5, 38, 34, {});
+  QCOMPARE(selection.pillars(), (std::set<Id>{off, near}));
+  QVERIFY(selection.nodes().empty());
+  QCOMPARE(caught.size(), 1);
+  QCOMPARE(caught[0][0].value<std::set<Id>>(), (std::set<Id>{off, near}));
+  // Adding to the selection asks nothing, nor does what belongs to a fault.
+  lasso(32, 5, 38, 34, Qt::ControlModifier);
+  lasso(5, 5, 25, 55, {});
+  QCOMPARE(selection.pillars(), std::set<Id>{picked.on_section});
+  QCOMPARE(caught.size(), 1);
+  // What is not drawn is not caught.
+  open.bench.display.set_fade_distance(0);
+  lasso(32, 5, 38, 34, {});
+  QCOMPARE(selection.pillars(), std::set<Id>{off});
+  // A node on the section that stays outside leaves its pillar out.
+  lasso(32, 5, 38, 20, {});
+  QVERIFY(selection.pillars().empty());
+  QCOMPARE(selection.nodes(), std::set<Id>{document.pillar(off)->nodes[0].id});
 }
 
 void SectionViewTest::a_selected_face_has_a_thicker_cut() {
