@@ -34,7 +34,8 @@ SampleColours::SampleColours(const SampleLook& look, const SectionReader::Volume
   }
   if (facts != nullptr && facts->percentiles.size() > 100) {
     const double gain = look.gain > 0 && std::isfinite(look.gain) ? look.gain : 1;
-    if (facts->signed_values) {
+    signed_ = facts->signed_values;
+    if (signed_) {
       high_ = percentile(*facts, look.clip_percentile) / gain;
       low_ = -high_;
     } else {

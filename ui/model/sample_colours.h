@@ -16,6 +16,8 @@ class SampleColours {
 
   double low() const { return low_; }
   double high() const { return high_; }
+  // Whether values lie on both sides of zero: then they have a polarity.
+  bool is_signed() const { return signed_; }
   const std::array<QRgb, 256>& table() const { return table_; }
   // The place in the table; values beyond the range take the ends. value: not NaN.
   int place_of(float value) const {
@@ -27,6 +29,7 @@ class SampleColours {
  private:
   double low_ = -1;
   double high_ = 1;
+  bool signed_ = false;
   float per_value_ = 128;
   std::array<QRgb, 256> table_{};
 };

@@ -25,6 +25,22 @@ QString length_text(double metres) {
   return metres >= 1000 ? QStringLiteral("%1 km").arg(metres / 1000) : QStringLiteral("%1 m").arg(metres);
 }
 
+// In a word, as one would say it of a colour map's end.
+QString colour_name(const QColor& colour) {
+  constexpr int kColourful = 40;  // of 255, between its strongest and its weakest part
+  const auto [weakest, strongest] = std::minmax({colour.red(), colour.green(), colour.blue()});
+  if (strongest - weakest < kColourful) {
+    return colour.lightness() < 64 ? tr("black") : colour.lightness() > 191 ? tr("white") : tr("grey");
+  }
+  const int hue = colour.hsvHue();
+  if (hue < 20 || hue >= 330) return tr("red");
+  if (hue < 45) return tr("orange");
+  if (hue < 70) return tr("yellow");
+  if (hue < 165) return tr("green");
+  if (hue < 200) return tr("cyan");
+  return hue < 265 ? tr("blue") : tr("purple");
+}
+
 double round_up(double least) {
   const double decade = std::pow(10.0, std::floor(std::log10(least)));
   for (const double digit : {1.0, 2.0, 5.0}) {
@@ -149,14 +165,21 @@ void draw_axes(QPainter& painter, const QRectF& bounds, const ViewTransform& vie
       Qt::AlignLeft | Qt::AlignBottom, v.unit.isEmpty() ? v.name : v.unit);
 }
 
+QString polarity_of(const SampleColours& samples, bool wiggles) {
+  if (!samples.is_signed()) return {};
+  return QStringLiteral("+ = %1").arg(wiggles ? tr("filled") : colour_name(samples.table().back()));
+}
+
 void draw_scale(QPainter& painter, const QRectF& strip, const ViewTransform& view,
-                const SampleColours* samples, const QString& volume, const AxisColours& colours) {
+                const SampleColours* samples, const QString& polarity, const QString& volume,
+                const AxisColours& colours) {
   painter.setFont(painter.font());
   draw_scale_bar(painter, strip, view, colours);
   if (samples == nullptr || strip.width() < 360) return;
   const QFontMetricsF metrics(painter.font());
-  const QString high = QString::number(samples->high(), 'g', 3);
-  const QString low = volume + QStringLiteral("  ") + QString::number(samples->low(), 'g', 3);
+  QString high = QString::number(samples->high(), 'g', 3);
+  if (!polarity.isEmpty()) high += QStringLiteral("   ") + polarity;
+  const QString low = QString::number(samples->low(), 'g', 3);
   const double middle = strip.center().y();
   double right = view.area().right() - metrics.horizontalAdvance(high);
   painter.setPen(colours.dim);
@@ -169,9 +192,12 @@ void draw_scale(QPainter& painter, const QRectF& strip, const ViewTransform& vie
     bar.setPixel(x, 0, samples->table()[static_cast<std::size_t>(x) * 255 / (kBar - 1)]);
   painter.drawImage(QRectF(right - kBar, middle - 4, kBar, 8), bar);
   right -= kBar + 6;
-  const QString shown = metrics.elidedText(low, Qt::ElideLeft, right - strip.left() - 220);
+  // The title tells the volume, too, so that its name may give way; half of it would tell nothing.
+  constexpr double kScaleBar = 220;
+  const QString named = volume + QStringLiteral("  ") + low;
+  const bool fits = metrics.horizontalAdvance(named) <= right - strip.left() - kScaleBar;
   painter.drawText(QRectF(strip.left(), strip.top(), right - strip.left(), strip.height()),
-                   Qt::AlignVCenter | Qt::AlignRight, shown);
+                   Qt::AlignVCenter | Qt::AlignRight, fits ? named : low);
 }
 
 }  // namespace footwall::ui

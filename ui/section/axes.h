@@ -38,9 +38,12 @@ struct AxisColours {
 // Around view.area(); `bounds`: the whole widget.
 void draw_axes(QPainter& painter, const QRectF& bounds, const ViewTransform& view, const AxisScale& u,
                const AxisScale& v, const AxisColours& colours);
-// In the strip below the data: a bar of round length at the left, the samples' colours and their range at the
-// right.
+// How positive values look: "+ = white", "+ = filled" with wiggles; empty for values without a sign.
+QString polarity_of(const SampleColours& samples, bool wiggles);
+// In the strip below the data: a bar of round length at the left, the samples' colours, their range and its
+// polarity at the right.
 void draw_scale(QPainter& painter, const QRectF& strip, const ViewTransform& view,
-                const SampleColours* samples, const QString& volume, const AxisColours& colours);
+                const SampleColours* samples, const QString& polarity, const QString& volume,
+                const AxisColours& colours);
 
 }  // namespace footwall::ui

@@ -16,6 +16,7 @@ namespace footwall::ui {
 namespace {
 
 constexpr int kLeft = 52, kTop = 24, kRight = 10, kBottom = 26;
+constexpr int kLeastForName = 640;  // pixels of the strip that holds scale, name and colours
 constexpr int kLateMilliseconds = 200;
 
 QColor faded(QColor colour, double alpha) {
@@ -335,9 +336,10 @@ void SectionCanvas::make_base() {
   const QRectF strip(kLeft, height() - kBottom, width() - kLeft - kRight, kBottom);
   const auto& volumes = bench_.document.volumes();
   const auto volume = std::ranges::find(volumes, bench_.display.volume(), &project::VolumeRecord::id);
-  draw_scale(painter, strip, view_, samples_ ? &colours : nullptr,
+  const bool wiggles = bench_.display.samples().wiggle && section_.kind != Section::Kind::kSlice;
+  draw_scale(painter, strip, view_, samples_ ? &colours : nullptr, polarity_of(colours, wiggles),
              volume == volumes.end() ? QString() : QString::fromStdString(volume->name), ink);
-  if (strip.width() > 520) painter.drawText(strip, Qt::AlignCenter, u.name);
+  if (strip.width() > kLeastForName) painter.drawText(strip, Qt::AlignCenter, u.name);
 }
 
 void SectionCanvas::make_still() {

@@ -36,6 +36,7 @@ class ViewTransformTest final : public QObject {
   void slices_are_not_mirrored();
   void bears_one_sample_and_any_zoom();
   void ticks_are_round_and_apart();
+  void polarity_is_said_in_words();
 };
 
 void ViewTransformTest::keeps_the_proportions_of_the_world() {
@@ -127,6 +128,22 @@ void ViewTransformTest::ticks_are_round_and_apart() {
     QVERIFY(is_near(tick.text.toDouble(), 1000 + 4 * tick.coordinate));
   QVERIFY(round_ticks(z, 0, NAN, 10, 45).empty());
   QCOMPARE(round_length(740), 500.0);
+}
+
+void ViewTransformTest::polarity_is_said_in_words() {
+  SectionReader::VolumeFacts facts{.signed_values = true, .percentiles = std::vector<double>(101, 1)};
+  const auto polarity = [&facts](const char* map, bool wiggles = false) {
+    SampleLook look;
+    look.colour_map = QLatin1String(map);
+    return polarity_of(SampleColours(look, &facts), wiggles);
+  };
+  QCOMPARE(polarity("grey"), QStringLiteral("+ = white"));
+  QCOMPARE(polarity("seismic"), QStringLiteral("+ = red"));
+  QCOMPARE(polarity("red-white-blue"), QStringLiteral("+ = blue"));
+  QCOMPARE(polarity("viridis"), QStringLiteral("+ = yellow"));
+  QCOMPARE(polarity("grey", true), QStringLiteral("+ = filled"));
+  facts.signed_values = false;  // of a distance, say
+  QCOMPARE(polarity("grey"), QString());
 }
 
 static const RegisterTest<ViewTransformTest> kRegistered;
