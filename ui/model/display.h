@@ -75,7 +75,7 @@ class Display final : public QObject {
     Id id = 0;
     Section section;
     bool in_scene = true;
-    bool linked = true;  // moves with the cursor of the others
+    bool linked = true;  // shows the cursor of the others, and moves as they do
     friend bool operator==(const ShownSection&, const ShownSection&) = default;
   };
   const std::vector<ShownSection>& sections() const { return sections_; }
@@ -83,6 +83,18 @@ class Display final : public QObject {
   void move_section(Id id, const Section& section);
   void change_section(const ShownSection& section);  // by id
   void remove_section(Id id);
+
+  // What a linked section shows after it was panned, zoomed, stretched or fitted, for the other linked ones.
+  struct LinkedView {
+    Id by = 0;
+    Section::Kind kind = Section::Kind::kInline;
+    bool fits = false;  // the whole plane; the numbers below are unused then
+    bool true_proportions = false;
+    PlanePoint centre;
+    double height = 1;  // voxels from top to bottom
+    double stretch = 1;
+  };
+  void show_linked(const LinkedView& view) { Q_EMIT linked_view_moved(view); }
 
   // Lines that X and Z move by as the user set it; unset: by the tool (Picking::step_lines()).
   const std::optional<int>& own_step() const { return own_step_; }
@@ -124,6 +136,7 @@ class Display final : public QObject {
   void cursor_moved();
   // Views that follow move there, and show so many voxels around it.
   void place_shown(const footwall::survey::IndexPoint& place, double reach);
+  void linked_view_moved(const footwall::ui::Display::LinkedView& view);
   void scene_changed();  // exaggeration, perspective, fade distance, step, snapping
   void changed();        // anything that to_json() holds
 

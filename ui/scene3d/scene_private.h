@@ -26,6 +26,7 @@ struct SceneView::Private {
   QTimer soon_timer;  // a frame waits for what is about to come
   bool was_settled = true;
   bool fitted = false;
+  bool placed = false;  // the camera, by a size or by words
   // The words that set the camera last, and where it stood then: angles round, words must not.
   QString camera_words;
   std::array<double, 9> numbers_of_words{};

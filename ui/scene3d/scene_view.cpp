@@ -181,6 +181,7 @@ void SceneView::resizeEvent(QResizeEvent* event) {
     }
     d.drawing.camera.fit(QSizeF(width, height));
     d.fitted = true;
+    d.placed = true;
   }
   d.camera_moved();
 }
@@ -264,6 +265,10 @@ QString SceneView::camera_text() const {
   return parts.join(u';');
 }
 
+bool SceneView::has_camera() const {
+  return d_->placed;
+}
+
 // Eye, target and up.
 std::array<double, 9> SceneView::Private::camera_numbers() const {
   const Vec3 eye = drawing.camera.eye();
@@ -294,6 +299,7 @@ bool SceneView::set_camera_text(const QString& text) {
                                      d_->drawing.camera.elevation());
   }
   d_->fitted = true;
+  d_->placed = true;
   d_->camera_words = text;
   d_->numbers_of_words = d_->camera_numbers();
   d_->camera_moved();

@@ -54,6 +54,8 @@ class SceneView final : public GlWidget {
   // "x,y,z;x,y,z;x,y,z": eye, target and up in scene metres, as views keep it and `footwall render --camera`
   // takes it.
   QString camera_text() const;
+  // Before the first size and without words it looks nowhere.
+  bool has_camera() const;
   // False for other words.
   bool set_camera_text(const QString& text);
 

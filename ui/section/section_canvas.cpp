@@ -66,6 +66,7 @@ void SectionCanvas::connect_models() {
   connect(&bench_.display, &Display::cursor_moved, this, overlay);
   connect(&bench_.display, &Display::place_shown, this,
           [this](const survey::IndexPoint& place, double reach) { show_place(place, reach); });
+  connect(&bench_.display, &Display::linked_view_moved, this, &SectionCanvas::follow_linked);
   connect(&bench_.selection, &Selection::changed, this, still);
   connect(&bench_.selection, &Selection::active_fault_changed, this, still);
   connect(&bench_.selection, &Selection::hover_changed, this, overlay);
@@ -219,6 +220,44 @@ void SectionCanvas::redraw_still() {
 
 void SectionCanvas::fit(bool true_proportions) {
   view_.fit(true_proportions);
+  view_moved();
+}
+
+bool SectionCanvas::show_part(const ShownPart& part) {
+  if (!view_.show_part(part)) return false;
+  redraw_base();
+  Q_EMIT view_changed();
+  return true;
+}
+
+// By the user: linked sections do the same.
+void SectionCanvas::view_moved() {
+  redraw_base();
+  Q_EMIT view_changed();
+  if (!linked_ || !exists_) return;
+  const ShownPart part = view_.part();
+  bench_.display.show_linked({.by = shown_,
+                              .kind = section_.kind,
+                              .fits = part.fits,
+                              .true_proportions = part.true_proportions,
+                              .centre = part.centre,
+                              .height = view_.area().height() / view_.pixels_per_v(),
+                              .stretch = part.stretch});
+}
+
+// Lines go different ways: with each other they share heights alone.
+void SectionCanvas::follow_linked(const Display::LinkedView& other) {
+  if (!linked_ || !exists_ || other.by == shown_ || !bench_.document.survey()) return;
+  const bool both_vertical = section_.kind != Section::Kind::kSlice && other.kind != Section::Kind::kSlice;
+  const bool same_kind = section_.kind == other.kind && section_.kind != Section::Kind::kLine;
+  if (!same_kind && !both_vertical) return;
+  if (other.fits) {
+    view_.fit(other.true_proportions);
+  } else if (same_kind) {
+    view_.show_around(other.centre, other.height, other.stretch);
+  } else {
+    view_.show_heights(other.centre.v, other.height);
+  }
   redraw_base();
   Q_EMIT view_changed();
 }
@@ -256,8 +295,7 @@ void SectionCanvas::frame_selection() {
   }
   if (!box) return;
   view_.show(box->first, box->second);
-  redraw_base();
-  Q_EMIT view_changed();
+  view_moved();
 }
 
 void SectionCanvas::show_place(const survey::IndexPoint& place, double reach) {

@@ -34,6 +34,8 @@ class SectionCanvas final : public QWidget {
   void step(std::int64_t lines);
   void fit(bool true_proportions = false);
   void frame_selection();
+  // As `view().part()` told earlier; false, and no change, for numbers that no view has.
+  bool show_part(const ShownPart& part);
   // The number being typed for a jump, with its kind of line; empty where none is.
   QString jump_text() const { return jump_; }
 
@@ -75,6 +77,8 @@ class SectionCanvas final : public QWidget {
   void redraw_base();
   void redraw_still();
   void show_message();
+  void view_moved();
+  void follow_linked(const Display::LinkedView& other);
 
   void make_base();
   void make_still();

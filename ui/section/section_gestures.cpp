@@ -111,16 +111,14 @@ void SectionCanvas::mouseMoveEvent(QMouseEvent* event) {
       if (far_) {
         view_.pan(at - last_at_);
         last_at_ = at;
-        redraw_base();
-        Q_EMIT view_changed();
+        view_moved();
       }
       return;
     case Hold::kZoom:
       if (far_) {
         view_.zoom(pressed_at_, std::pow(kZoomOfPixel, last_at_.y() - at.y()));
         last_at_ = at;
-        redraw_base();
-        Q_EMIT view_changed();
+        view_moved();
       }
       return;
     case Hold::kSelect:
@@ -199,8 +197,7 @@ void SectionCanvas::wheelEvent(QWheelEvent* event) {
   } else {
     view_.zoom(event->position(), factor);
   }
-  redraw_base();
-  Q_EMIT view_changed();
+  view_moved();
 }
 
 void SectionCanvas::select_under(const Pointer& pointer) {
@@ -334,8 +331,7 @@ bool SectionCanvas::move_by_key(const QKeyEvent& event) {
   }
   view_.pan(pan);
   if (zoom != 1) view_.zoom(view_.area().center(), zoom);
-  redraw_base();
-  Q_EMIT view_changed();
+  view_moved();
   return true;
 }
 

@@ -38,6 +38,23 @@ QString SectionView::details() const {
   return volume == volumes.end() ? QString() : QString::fromStdString(volume->name);
 }
 
+QJsonObject SectionView::look() const {
+  const ShownPart part = canvas_->view().part();
+  if (part.fits) return part.true_proportions ? QJsonObject{{"true_proportions", true}} : QJsonObject();
+  return {{"u", part.centre.u},
+          {"v", part.centre.v},
+          {"pixels_per_metre", part.pixels_per_metre},
+          {"stretch", part.stretch}};
+}
+
+void SectionView::set_look(const QJsonObject& look) {
+  canvas_->show_part({.fits = !look.contains(QStringLiteral("pixels_per_metre")),
+                      .true_proportions = look["true_proportions"].toBool(),
+                      .centre = {look["u"].toDouble(), look["v"].toDouble()},
+                      .pixels_per_metre = look["pixels_per_metre"].toDouble(),
+                      .stretch = look["stretch"].toDouble()});
+}
+
 void SectionView::follow_display() {
   const auto& sections = bench_.display.sections();
   const auto found = std::ranges::find(sections, shown_, &Display::ShownSection::id);

@@ -1,6 +1,7 @@
 // One section of the survey with everything that is picked on it: samples, axes, faults, pillars; a slider
 // steps it.
 #pragma once
+#include <QJsonObject>
 #include <QSlider>
 #include <QWidget>
 
@@ -18,6 +19,10 @@ class SectionView final : public QWidget {
 
   SectionCanvas& canvas() { return *canvas_; }
   Id shown() const { return shown_; }
+  // What of the section is shown; empty: all of it.
+  QJsonObject look() const;
+  // Takes what it understands.
+  void set_look(const QJsonObject& look);
   // For the title's right side: "amplitude".
   QString details() const;
 

@@ -8,6 +8,8 @@ namespace {
 
 constexpr double kMostPixelsPerVoxel = 2000;
 constexpr double kLeastPixelsOfPlane = 40;
+constexpr double kLeastStretch = 1e-4;
+constexpr double kMostStretch = 1e4;
 
 double length_of(const survey::WorldPoint& a, const survey::WorldPoint& b, const survey::Geometry& survey) {
   return std::abs(survey.horizontal_metres(std::hypot(a.x - b.x, a.y - b.y)));
@@ -90,7 +92,7 @@ void ViewTransform::fit(bool true_proportions) {
   const double by_height = area_.height() / (frame_.size.height * frame_.metres_per_v);
   stretch_ = 1;
   if (frame_.vertical && !true_proportions)
-    stretch_ = std::clamp(round_down(by_height / by_width), 1e-4, 1e4);
+    stretch_ = std::clamp(round_down(by_height / by_width), kLeastStretch, kMostStretch);
   scale_ = std::min(by_width, by_height / stretch_);
   fitted_ = true;
   true_proportions_ = true_proportions;
@@ -117,7 +119,7 @@ void ViewTransform::zoom(const QPointF& at, double factor) {
 
 void ViewTransform::stretch(const QPointF& at, double factor) {
   const PlanePoint under = to_plane(at);
-  stretch_ = std::clamp(stretch_ * factor, 1e-4, 1e4);
+  stretch_ = std::clamp(stretch_ * factor, kLeastStretch, kMostStretch);
   fitted_ = false;
   clamp();
   const QPointF now = to_pixels(under);
@@ -129,9 +131,43 @@ void ViewTransform::pan(const QPointF& by) {
   centre_.u -= by.x() / pixels_per_u();
   centre_.v -= by.y() / pixels_per_v() * (frame_.upward ? -1 : 1);
   fitted_ = false;
-  // Some of the plane stays in the view.
-  centre_.u = std::clamp(centre_.u, -0.5, frame_.size.width - 0.5);
-  centre_.v = std::clamp(centre_.v, -0.5, frame_.size.height - 0.5);
+  clamp_centre();
+}
+
+bool ViewTransform::show_part(const ShownPart& part) {
+  if (part.fits) {
+    fit(part.true_proportions);
+    return true;
+  }
+  const auto is_scale = [](double x) { return std::isfinite(x) && x > 0; };
+  if (!is_scale(part.pixels_per_metre) || !is_scale(part.stretch) || !std::isfinite(part.centre.u) ||
+      !std::isfinite(part.centre.v))
+    return false;
+  fitted_ = false;
+  centre_ = part.centre;
+  scale_ = part.pixels_per_metre;
+  stretch_ = std::clamp(part.stretch, kLeastStretch, kMostStretch);
+  clamp();
+  clamp_centre();
+  return true;
+}
+
+void ViewTransform::show_around(const PlanePoint& centre, double height, double stretch) {
+  fitted_ = false;
+  centre_ = centre;
+  stretch_ = stretch;
+  scale_ = area_.height() / (height * frame_.metres_per_v * stretch_);
+  clamp();
+  clamp_centre();
+}
+
+void ViewTransform::show_heights(double centre, double height) {
+  fitted_ = false;
+  centre_.v = centre;
+  stretch_ =
+      std::clamp(area_.height() / (height * frame_.metres_per_v * scale_), kLeastStretch, kMostStretch);
+  clamp();
+  clamp_centre();
 }
 
 QPointF ViewTransform::to_pixels(const PlanePoint& p) const {
@@ -143,6 +179,12 @@ PlanePoint ViewTransform::to_plane(const QPointF& p) const {
   const QPointF from = p - area_.center();
   const double down = from.y() / pixels_per_v();
   return {centre_.u + from.x() / pixels_per_u(), centre_.v + (frame_.upward ? -down : down)};
+}
+
+// Some of the plane stays in the view.
+void ViewTransform::clamp_centre() {
+  centre_.u = std::clamp(centre_.u, -0.5, frame_.size.width - 0.5);
+  centre_.v = std::clamp(centre_.v, -0.5, frame_.size.height - 0.5);
 }
 
 void ViewTransform::clamp() {

@@ -20,6 +20,15 @@ struct PlaneFrame {
 // velocity: m/s for a time survey; 0: 1 ms is drawn as 1 m.
 PlaneFrame frame_of(const Section& section, const survey::Geometry& survey, double velocity);
 
+// What of a plane is shown, whatever the size of the view.
+struct ShownPart {
+  bool fits = true;  // all of it; the numbers below follow from the view then
+  bool true_proportions = false;
+  PlanePoint centre;
+  double pixels_per_metre = 1;  // along u
+  double stretch = 1;
+};
+
 class ViewTransform {
  public:
   // Keeps the place in the middle and the scale; before the first fit() shows nothing sensible.
@@ -35,6 +44,13 @@ class ViewTransform {
   void zoom(const QPointF& at, double factor);     // the place under `at` stays
   void stretch(const QPointF& at, double factor);  // of v alone
   void pan(const QPointF& by);
+  ShownPart part() const { return {fitted_, true_proportions_, centre_, scale_, stretch_}; }
+  // False, and no change, for numbers that no view has.
+  bool show_part(const ShownPart& part);
+  // This centre, and `height` voxels from top to bottom.
+  void show_around(const PlanePoint& centre, double height, double stretch);
+  // The same of v alone: u keeps its place and its scale.
+  void show_heights(double centre, double height);
 
   QPointF to_pixels(const PlanePoint& p) const;
   PlanePoint to_plane(const QPointF& p) const;
@@ -46,6 +62,7 @@ class ViewTransform {
 
  private:
   void clamp();
+  void clamp_centre();
 
   PlaneFrame frame_;
   QRectF area_{0, 0, 100, 100};

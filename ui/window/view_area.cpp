@@ -143,6 +143,24 @@ void ViewArea::show_scene(bool on) {
   }
 }
 
+// Empty for what every view shows at first.
+QJsonObject ViewArea::look_of(const ViewTile& tile) const {
+  if (!tile.is_built()) return {};
+  if (tile.section() != 0)
+    return factories_.section_look ? factories_.section_look(*tile.view()) : QJsonObject();
+  const QString camera = factories_.camera ? factories_.camera(*tile.view()) : QString();
+  return camera.isEmpty() ? QJsonObject() : QJsonObject{{"camera", camera}};
+}
+
+void ViewArea::set_look(const ViewTile& tile, const QJsonObject& look) {
+  if (!tile.is_built() || look.isEmpty()) return;
+  if (tile.section() != 0) {
+    if (factories_.set_section_look) factories_.set_section_look(*tile.view(), look);
+  } else if (factories_.set_camera) {
+    factories_.set_camera(*tile.view(), look["camera"].toString());
+  }
+}
+
 // A section is named by its place in Display's list: its id is another one after opening.
 QJsonObject ViewArea::layout() const {
   const auto sizes_of = [this](const QSplitter& splitter, const QList<int>& before) {
@@ -153,14 +171,16 @@ QJsonObject ViewArea::layout() const {
   for (int n = 0; n < columns_->count(); ++n) {
     const auto* column = qobject_cast<QSplitter*>(columns_->widget(n));
     if (column == nullptr) continue;
-    QJsonArray tiles;
+    QJsonArray tiles, looks;
     for (const ViewTile* tile : tiles_of(*column)) {
+      looks.append(look_of(*tile));
       const auto found = std::ranges::find(sections, tile->section(), &Display::ShownSection::id);
       tiles.append(tile->section() == 0 ? -1 : static_cast<int>(found - sections.begin()));
     }
     const auto before = heights_before_.find(column);
     columns.append(QJsonObject{
         {"tiles", tiles},
+        {"looks", looks},
         {"heights", sizes_of(*column, before != heights_before_.end() ? before->second : QList<int>())}});
   }
   return {{"columns", columns}, {"widths", sizes_of(*columns_, widths_before_)}};
@@ -173,11 +193,14 @@ void ViewArea::build(const QJsonObject& layout) {
   for (const QJsonValue& stored : columns) {
     QSplitter* column = add_column();
     const QJsonArray tiles = stored.toObject()["tiles"].toArray();
-    for (const QJsonValue& tile : tiles) {
-      const int number = tile.toInt(-2);
+    const QJsonArray looks = stored.toObject()["looks"].toArray();
+    for (qsizetype n = 0; n < tiles.size(); ++n) {
+      const int number = tiles[n].toInt(-2);
       if (number < -1 || number >= static_cast<int>(sections.size()) || !placed.insert(number).second)
         continue;
-      column->addWidget(make_tile(number < 0 ? 0 : sections[static_cast<std::size_t>(number)].id));
+      ViewTile* tile = make_tile(number < 0 ? 0 : sections[static_cast<std::size_t>(number)].id);
+      column->addWidget(tile);
+      set_look(*tile, looks.at(n).toObject());
     }
     const QList<int> heights = sizes_from(stored.toObject()["heights"], column->count());
     if (!heights.isEmpty()) column->setSizes(heights);

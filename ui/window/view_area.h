@@ -55,6 +55,8 @@ class ViewArea final : public QWidget {
   QSplitter* column_of(const ViewTile* tile) const;
   QSplitter* column_for_sections();
   void drop_empty_columns();
+  QJsonObject look_of(const ViewTile& tile) const;
+  void set_look(const ViewTile& tile, const QJsonObject& look);
   void remove(ViewTile* tile);
   void focus_moved(QWidget* now);
 

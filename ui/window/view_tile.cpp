@@ -111,7 +111,7 @@ void ViewTile::add_section_controls(QHBoxLayout& bar) {
     }
   });
   volume_->setMenu(menu);
-  linked_ = text_button(bar_, tr("Linked views follow each other's cursor (L)"));
+  linked_ = text_button(bar_, tr("Linked views share cursor, zoom and place (L)"));
   linked_->setCheckable(true);
   connect(linked_, &QToolButton::clicked, this, [this](bool on) {
     const Display::ShownSection* now = shown(workbench_, section_);

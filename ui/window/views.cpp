@@ -22,7 +22,14 @@ ViewFactories built_views() {
   views.scene = [](Workbench& workbench, QWidget* parent) -> QWidget* {
     return new SceneView(workbench, parent);
   };
-  views.camera = [](const QWidget& scene) { return static_cast<const SceneView&>(scene).camera_text(); };
+  views.section_look = [](const QWidget& section) { return static_cast<const SectionView&>(section).look(); };
+  views.set_section_look = [](QWidget& section, const QJsonObject& look) {
+    static_cast<SectionView&>(section).set_look(look);
+  };
+  views.camera = [](const QWidget& scene) {
+    const auto& view = static_cast<const SceneView&>(scene);
+    return view.has_camera() ? view.camera_text() : QString();
+  };
   views.set_camera = [](QWidget& scene, const QString& camera) {
     return static_cast<SceneView&>(scene).set_camera_text(camera);
   };
