@@ -45,6 +45,7 @@ Workbench::Workbench(project::Project opened, const EngineLink::Options& engine_
       selection(document),
       display(document),
       picking(document, selection, display),
+      line(document, display, picking),
       sections(document),
       engine(document, engine_options),
       surfaces(document, &engine) {

@@ -8,6 +8,7 @@
 #include "ui/model/edit_socket.h"
 #include "ui/model/engine_link.h"
 #include "ui/model/jobs.h"
+#include "ui/model/line_drawing.h"
 #include "ui/model/mouse_bindings.h"
 #include "ui/model/picking.h"
 #include "ui/model/section_reader.h"
@@ -27,6 +28,7 @@ struct Workbench {
   Selection selection;
   Display display;
   Picking picking;
+  LineDrawing line;
   SectionReader sections;
   EngineLink engine;
   Surfaces surfaces;

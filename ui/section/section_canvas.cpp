@@ -18,6 +18,7 @@ namespace {
 constexpr int kLeft = 52, kTop = 24, kRight = 10, kBottom = 26;
 constexpr int kLeastForName = 640;  // pixels of the strip that holds scale, name and colours
 constexpr int kLateMilliseconds = 200;
+constexpr double kEndRadius = 4;  // of a line that is drawn
 
 QColor faded(QColor colour, double alpha) {
   colour.setAlphaF(alpha);
@@ -67,6 +68,10 @@ void SectionCanvas::connect_models() {
   connect(&bench_.display, &Display::place_shown, this,
           [this](const survey::IndexPoint& place, double reach) { show_place(place, reach); });
   connect(&bench_.display, &Display::linked_view_moved, this, &SectionCanvas::follow_linked);
+  connect(&bench_.line, &LineDrawing::changed, this, [this] {
+    show_pointer_shape();
+    update();
+  });
   connect(&bench_.selection, &Selection::changed, this, still);
   connect(&bench_.selection, &Selection::active_fault_changed, this, still);
   connect(&bench_.selection, &Selection::hover_changed, this, overlay);
@@ -262,6 +267,10 @@ void SectionCanvas::follow_linked(const Display::LinkedView& other) {
   Q_EMIT view_changed();
 }
 
+bool SectionCanvas::draws_line() const {
+  return bench_.line.is_active() && section_.kind == Section::Kind::kSlice && message().isEmpty();
+}
+
 void SectionCanvas::step(std::int64_t lines) {
   if (!exists_ || !bench_.document.survey()) return;
   bench_.display.move_section(shown_, stepped(section_, lines, *bench_.document.survey()));
@@ -452,6 +461,18 @@ void SectionCanvas::draw_selecting(QPainter& painter) const {
   painter.drawPolygon(selecting_);
 }
 
+void SectionCanvas::draw_line_under_way(QPainter& painter) const {
+  if (!draws_line() || !bench_.line.first()) return;
+  const QPointF first = view_.to_pixels(plane_of(section_, *bench_.line.first()));
+  const QColor accent = palette().color(QPalette::Highlight);
+  painter.setPen(QPen(accent, 2, Qt::DashLine));
+  if (const auto& cursor = bench_.display.cursor())
+    painter.drawLine(first, view_.to_pixels(plane_of(section_, *cursor)));
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(accent);
+  painter.drawEllipse(first, kEndRadius, kEndRadius);
+}
+
 void SectionCanvas::draw_jump(QPainter& painter) const {
   if (jump_.isEmpty() || !bench_.document.survey()) return;
   const survey::Geometry& survey = *bench_.document.survey();
@@ -482,6 +503,7 @@ void SectionCanvas::paintEvent(QPaintEvent* event) {
   draw_cursor(painter);
   draw_moving(painter);
   draw_selecting(painter);
+  draw_line_under_way(painter);
   draw_jump(painter);
 }
 

@@ -65,7 +65,7 @@ class SectionCanvas final : public QWidget {
   void focusOutEvent(QFocusEvent* event) override;
 
  private:
-  enum class Hold { kNone, kPan, kZoom, kPicking, kSelect };
+  enum class Hold { kNone, kPan, kZoom, kPicking, kSelect, kLine };
 
   void connect_models();
   void follow_display();
@@ -79,6 +79,7 @@ class SectionCanvas final : public QWidget {
   void show_message();
   void view_moved();
   void follow_linked(const Display::LinkedView& other);
+  bool draws_line() const;
 
   void make_base();
   void make_still();
@@ -87,6 +88,7 @@ class SectionCanvas final : public QWidget {
   void draw_moving(QPainter& painter);
   void draw_cursor(QPainter& painter) const;
   void draw_selecting(QPainter& painter) const;
+  void draw_line_under_way(QPainter& painter) const;
   void draw_jump(QPainter& painter) const;
 
   Pointer pointer_of(const QPointF& at, Qt::KeyboardModifiers modifiers, Qt::MouseButton button,
@@ -125,6 +127,7 @@ class SectionCanvas final : public QWidget {
   Pointer pressed_;
   bool far_ = false;  // the mouse travelled 4 px since the press
   bool stroke_here_ = false;
+  bool line_begins_ = false;  // with the press of now
   bool mouse_inside_ = false;
   QPolygonF selecting_;  // box or lasso under way
   QString jump_;

@@ -62,7 +62,8 @@ Pointer SectionCanvas::pointer_of(const QPointF& at, Qt::KeyboardModifiers modif
 
 void SectionCanvas::point_at(const Pointer& pointer) {
   bench_.display.set_cursor(pointer.on_section ? std::optional(pointer.place) : std::nullopt);
-  if (hold_ == Hold::kNone) bench_.selection.hover(pointer.under);
+  // A click that ends a line selects nothing.
+  if (hold_ == Hold::kNone) bench_.selection.hover(draws_line() ? Item() : pointer.under);
 }
 
 void SectionCanvas::show_pointer_shape() {
@@ -70,6 +71,8 @@ void SectionCanvas::show_pointer_shape() {
     setCursor(Qt::ClosedHandCursor);
   } else if (space_) {
     setCursor(Qt::OpenHandCursor);
+  } else if (draws_line()) {
+    setCursor(Qt::CrossCursor);
   } else {
     setCursor(cursor_of(bench_.picking.shape()));
   }
@@ -89,6 +92,10 @@ void SectionCanvas::mousePressEvent(QMouseEvent* event) {
     hold_ = Hold::kPan;
   } else if (does == MouseAction::kZoom) {
     hold_ = Hold::kZoom;
+  } else if (left && draws_line()) {
+    hold_ = Hold::kLine;
+    line_begins_ = !bench_.line.first();
+    if (line_begins_ && pointer.on_section) bench_.line.put(pointer.place);
   } else if (bench_.picking.press(pointer)) {
     hold_ = Hold::kPicking;
     stroke_here_ = true;
@@ -131,6 +138,8 @@ void SectionCanvas::mouseMoveEvent(QMouseEvent* event) {
       }
       update();
       return;
+    case Hold::kLine:
+      return;  // is drawn to the cursor
     case Hold::kNone:
     case Hold::kPicking:
       if (!space_) bench_.picking.move(pointer);
@@ -156,6 +165,8 @@ void SectionCanvas::mouseReleaseEvent(QMouseEvent* event) {
       select_under(pressed_);
     }
     update();
+  } else if (held == Hold::kLine && (far_ || !line_begins_)) {
+    bench_.line.put(pointer.place);
   }
   point_at(pointer);
   show_pointer_shape();
@@ -164,7 +175,7 @@ void SectionCanvas::mouseReleaseEvent(QMouseEvent* event) {
 void SectionCanvas::mouseDoubleClickEvent(QMouseEvent* event) {
   if (hold_ != Hold::kNone) return;
   const Pointer pointer = pointer_of(event->position(), event->modifiers(), event->button(), time_of(*event));
-  if (!space_ && bench_.picking.double_click(pointer)) return;
+  if (!space_ && !draws_line() && bench_.picking.double_click(pointer)) return;
   mousePressEvent(event);
 }
 
@@ -369,6 +380,7 @@ void SectionCanvas::keyPressEvent(QKeyEvent* event) {
     update();
     return;
   }
+  if (event->key() == Qt::Key_Escape && bench_.line.is_active()) return bench_.line.end();
   if (type_jump(*event)) return;
   if (bench_.picking.key_press(event->key(), event->modifiers())) return;
   if (move_by_key(*event)) return;

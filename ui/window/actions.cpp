@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 #include <QMenuBar>
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -129,6 +130,12 @@ unsigned Actions::met() const {
   const ViewArea* views = window_.views();
   add(views != nullptr && views->active() != nullptr, kView);
   add(views != nullptr && views->active_section() != 0, kSection);
+  const Id active = views == nullptr ? 0 : views->active_section();
+  add(std::ranges::any_of(bench->display.sections(),
+                          [active](const Display::ShownSection& shown) {
+                            return shown.id == active && shown.section.kind == Section::Kind::kLine;
+                          }),
+      kLine);
   const ViewTile* scene = views == nullptr ? nullptr : views->scene();
   add(scene != nullptr && scene->is_built(), kScene);
   add(bench->jobs.running() > 0 || window_.start_jobs().running() > 0, kJob);

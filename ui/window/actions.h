@@ -34,6 +34,7 @@ enum Needs : unsigned {
   kScene = 16384,      // the scene is open and built
   kPicked = 8192,      // pillars themselves are selected
   kShiftable = 32768,  // with the Select tool a face or pillars: what a suggested shift is of
+  kLine = 1 << 20,     // the active view is a section along a line
 };
 
 struct ActionRow {

@@ -28,6 +28,7 @@ void select_all(MainWindow& window) {
 }
 
 void leave(MainWindow& window) {
+  if (window.workbench()->line.is_active()) return window.workbench()->line.end();
   Picking& picking = window.workbench()->picking;
   picking.key_press(Qt::Key_Escape, {});
   picking.set_tool(Tool::kSelect);

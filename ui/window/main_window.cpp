@@ -231,7 +231,9 @@ void MainWindow::connect_workbench() {
     make_assign_menu(*workbench_, pillars, views_)->popup(QCursor::pos());
   });
   connect(&bench.picking, &Picking::tool_changed, actions_, &Actions::refresh);
-  for (const auto signal : {&Display::samples_changed, &Display::faces_changed, &Display::scene_changed}) {
+  connect(&bench.line, &LineDrawing::changed, actions_, &Actions::refresh);
+  for (const auto signal : {&Display::samples_changed, &Display::faces_changed, &Display::scene_changed,
+                            &Display::sections_changed}) {
     connect(&bench.display, signal, actions_, &Actions::refresh);
   }
   connect(&bench.jobs, &Jobs::running_changed, actions_, &Actions::refresh);

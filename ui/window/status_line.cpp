@@ -68,6 +68,7 @@ void StatusLine::show_workbench(Workbench* workbench) {
   if (workbench_ != nullptr) {
     workbench_->display.disconnect(this);
     workbench_->picking.disconnect(this);
+    workbench_->line.disconnect(this);
     workbench_->sections.disconnect(this);
     workbench_->selection.disconnect(this);
     workbench_->surfaces.disconnect(this);
@@ -79,6 +80,7 @@ void StatusLine::show_workbench(Workbench* workbench) {
     connect(&workbench_->display, &Display::samples_changed, this, &StatusLine::refresh);
     connect(&workbench_->sections, &SectionReader::ready, this, &StatusLine::refresh);
     connect(&workbench_->picking, &Picking::hint_changed, this, &StatusLine::refresh);
+    connect(&workbench_->line, &LineDrawing::changed, this, &StatusLine::refresh);
     connect(&workbench_->picking, &Picking::tool_changed, this, &StatusLine::refresh_shift);
     connect(&workbench_->selection, &Selection::changed, this, &StatusLine::refresh_shift);
     connect(&workbench_->surfaces, &Surfaces::numbers_changed, this, &StatusLine::refresh_shift);
@@ -109,6 +111,7 @@ void StatusLine::refresh() {
   if (workbench_ != nullptr) {
     hint = workbench_->picking.hint();
     if (!shift_.isEmpty()) hint = hint.isEmpty() ? shift_ : tr("%1; %2").arg(shift_, hint);
+    if (workbench_->line.is_active()) hint = workbench_->line.hint();
     const auto& survey = workbench_->document.survey();
     const auto& cursor = workbench_->display.cursor();
     if (survey && cursor) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "ui/window/action_groups.h"
+#include "ui/window/line_dialog.h"
 #include "ui/window/main_window.h"
 #include "ui/window/saved_views.h"
 #include "ui/window/view_area.h"
@@ -35,12 +36,44 @@ void add_section(MainWindow& window) {
   display(window).add_section(stepped(section, 0, survey));
 }
 
+const Display::ShownSection* shown_as(MainWindow& window, Id id) {
+  const auto& all = display(window).sections();
+  const auto found = std::ranges::find(all, id, &Display::ShownSection::id);
+  return found == all.end() ? nullptr : &*found;
+}
+
+// The active view where it is a slice, else the first that is; null where there is none.
+ViewTile* slice_of(MainWindow& window) {
+  const auto is_slice = [&window](const ViewTile* tile) {
+    const Display::ShownSection* shown = tile == nullptr ? nullptr : shown_as(window, tile->section());
+    return shown != nullptr && shown->section.kind == Section::Kind::kSlice;
+  };
+  if (is_slice(window.views()->active())) return window.views()->active();
+  const auto all = window.views()->tiles();
+  const auto found = std::ranges::find_if(all, is_slice);
+  return found == all.end() ? nullptr : *found;
+}
+
+// With a slice in view, on which its ends are said.
+void draw_line(MainWindow& window) {
+  LineDrawing& line = window.workbench()->line;
+  if (line.is_active()) return line.end();
+  ViewArea& views = *window.views();
+  if (ViewTile* slice = slice_of(window)) {
+    if (views.maximised() != nullptr && views.maximised() != slice) views.maximise(views.maximised());
+    views.activate(slice);
+    slice->view()->setFocus(Qt::ShortcutFocusReason);
+  } else {
+    add_section<Section::Kind::kSlice>(window);
+  }
+  line.begin();
+}
+
 void step(MainWindow& window, int steps) {
   const Id id = window.views()->active_section();
-  const auto& all = display(window).sections();
-  const auto shown = std::ranges::find(all, id, &Display::ShownSection::id);
+  const Display::ShownSection* shown = shown_as(window, id);
   const auto& survey = window.workbench()->document.survey();
-  if (shown == all.end() || !survey) return;
+  if (shown == nullptr || !survey) return;
   display(window).move_section(
       id, stepped(shown->section, static_cast<std::int64_t>(steps) * window.workbench()->picking.step_lines(),
                   *survey));
@@ -171,6 +204,15 @@ std::vector<ActionRow> place_actions() {
        QT_TRANSLATE_NOOP("Actions",
                          "Another view along a line through two points, at first from corner to corner"),
        kSurveyed, add_section<Section::Kind::kLine>},
+      {"view.draw-line", M::kView, QT_TRANSLATE_NOOP("Actions", "Draw line"), "Shift+L", "draw-line",
+       QT_TRANSLATE_NOOP("Actions", "Another view along a line whose two ends are clicked on a slice"),
+       kSurveyed, draw_line, [](MainWindow& window) { return window.workbench()->line.is_active(); }},
+      {"view.line-ends", M::kView, QT_TRANSLATE_NOOP("Actions", "Ends of line…"), "Ctrl+Alt+N", "line-ends",
+       QT_TRANSLATE_NOOP("Actions", "The two ends of the active line as inline and crossline numbers"),
+       kSurveyed | kLine,
+       [](MainWindow& window) {
+         open_line_dialog(*window.workbench(), window.views()->active_section(), &window);
+       }},
       {"view.scene", M::kView, QT_TRANSLATE_NOOP("Actions", "3&D scene"), "Ctrl+5", "scene",
        QT_TRANSLATE_NOOP("Actions", "Show or close the 3D scene"), kProject,
        [](MainWindow& window) { window.views()->show_scene(!window.views()->has_scene()); },

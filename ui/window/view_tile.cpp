@@ -8,6 +8,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "ui/window/line_dialog.h"
 #include "ui/window/theme.h"
 
 namespace footwall::ui {
@@ -120,8 +121,10 @@ void ViewTile::add_section_controls(QHBoxLayout& bar) {
     changed.linked = on;
     workbench_.display.change_section(changed);
   });
-  bar.addWidget(volume_);
-  bar.addWidget(linked_);
+  ends_ = text_button(bar_, tr("The ends of the line as numbers (Ctrl+Alt+N)"));
+  ends_->setText(tr("ends…"));
+  connect(ends_, &QToolButton::clicked, this, [this] { open_line_dialog(workbench_, section_, window()); });
+  for (QToolButton* button : {volume_, ends_, linked_}) bar.addWidget(button);
 }
 
 void ViewTile::add_scene_controls(QHBoxLayout& bar) {
@@ -170,6 +173,7 @@ void ViewTile::update_title() {
     }
     if (volume_->text() != volume) volume_->setText(volume);
     linked_->setChecked(now->linked);
+    ends_->setVisible(now->section.kind == Section::Kind::kLine && workbench_.document.survey());
     const QString linked = now->linked ? tr("linked") : tr("free");
     if (linked_->text() != linked) linked_->setText(linked);
   }

@@ -43,6 +43,7 @@ class ViewTile final : public QFrame {
   QLabel* title_ = nullptr;
   QToolButton* volume_ = nullptr;
   QToolButton* linked_ = nullptr;
+  QToolButton* ends_ = nullptr;
   QToolButton* perspective_ = nullptr;
   QToolButton* exaggeration_ = nullptr;
   QWidget* view_ = nullptr;
