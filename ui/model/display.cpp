@@ -65,7 +65,8 @@ QJsonObject json_of(const IsosurfaceLook& look) {
           {"value", look.value},
           {"colour", look.colour},
           {"as_picture", look.as_picture},
-          {"visible", look.visible}};
+          {"visible", look.visible},
+          {"name", look.name}};
 }
 
 QJsonObject json_of(const SampleLook& look) {
@@ -313,7 +314,8 @@ void Display::from_json(const QJsonObject& json) {
                             .value = number(look["value"], -3e38, 3e38, 0),
                             .colour = look["colour"].toString(),
                             .as_picture = look["as_picture"].toBool(true),
-                            .visible = look["visible"].toBool(true)});
+                            .visible = look["visible"].toBool(true),
+                            .name = look["name"].toString()});
   }
   sections_.clear();
   for (const auto& entry : json["sections"].toArray()) {

@@ -44,6 +44,7 @@ struct IsosurfaceLook {
   QString colour = QStringLiteral("#c9a3e8");
   bool as_picture = true;  // by the engine, with its depths; else its triangles
   bool visible = true;
+  QString name = {};  // empty: its volume and value
   friend bool operator==(const IsosurfaceLook&, const IsosurfaceLook&) = default;
 };
 

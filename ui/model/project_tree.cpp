@@ -87,7 +87,10 @@ std::vector<ProjectTree::Row> ProjectTree::rows_now(Group group) const {
         for (const IsosurfaceLook& look : display_.isosurfaces()) {
           rows.push_back(
               {.item = {.kind = Item::Kind::kIsosurface, .id = look.id},
-               .name = QStringLiteral("%1 = %2").arg(volume_name(look.volume)).arg(look.value, 0, 'g', 4),
+               .name =
+                   !look.name.isEmpty()
+                       ? look.name
+                       : QStringLiteral("%1 = %2").arg(volume_name(look.volume)).arg(look.value, 0, 'g', 4),
                .detail = look.as_picture ? QString() : tr("mesh"),
                .colour = QColor(look.colour),
                .checked = look.visible});
@@ -181,16 +184,35 @@ bool ProjectTree::remove(const std::vector<Item>& items) {
       display_.remove_isosurface(item.id);
       any = true;
     }
+    if (item.kind == Item::Kind::kVolume) any = remove_volume(item.id) || any;
     if (item.kind != Item::Kind::kView) continue;
     try {
       document_.store().delete_view(item.name.toStdString());
       any = true;
     } catch (const Error& error) {
-      Q_EMIT document_.failed(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
+      tell(error);
     }
     Q_EMIT document_.views_changed();
   }
   return (!faults.empty() && delete_items(document_, faults, {}, {})) || any;
+}
+
+bool ProjectTree::remove_volume(Id volume) {
+  try {
+    document_.store().delete_volume(volume);
+  } catch (const Error& error) {
+    tell(error);
+    return false;
+  }
+  document_.reload_volumes();  // what shows it turns to another one
+  for (const IsosurfaceLook& look : std::vector<IsosurfaceLook>(display_.isosurfaces())) {
+    if (look.volume == volume) display_.remove_isosurface(look.id);
+  }
+  return true;
+}
+
+void ProjectTree::tell(const Error& error) {
+  Q_EMIT document_.failed(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
 }
 
 QModelIndex ProjectTree::heading(Group group) const {
@@ -250,7 +272,7 @@ Qt::ItemFlags ProjectTree::flags(const QModelIndex& index) const {
   const auto group = static_cast<Group>(index.internalId() - 1);
   Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemNeverHasChildren;
   if (has_check(group)) flags |= Qt::ItemIsUserCheckable;
-  if (!document_.read_only() && (group == kFaults || group == kViews)) flags |= Qt::ItemIsEditable;
+  if (!document_.read_only() && group != kRuns) flags |= Qt::ItemIsEditable;
   return flags;
 }
 
@@ -265,8 +287,48 @@ bool ProjectTree::setData(const QModelIndex& index, const QVariant& value, int r
 
 bool ProjectTree::rename(const Row& row, const QString& name) {
   if (name == row.name) return false;
-  if (row.item.kind == Item::Kind::kFault) return rename_fault(document_, row.item.id, name);
-  if (row.item.kind != Item::Kind::kView) return false;
+  switch (row.item.kind) {
+    case Item::Kind::kFault:
+      return rename_fault(document_, row.item.id, name);
+    case Item::Kind::kVolume:
+      return rename_volume(row.item.id, name);
+    case Item::Kind::kIsosurface:
+      return rename_isosurface(row.item.id, name);
+    case Item::Kind::kView:
+      return rename_view(row.name, name);
+    default:
+      return false;
+  }
+}
+
+// Without a name it is called after its volume and value again.
+bool ProjectTree::rename_isosurface(Id isosurface, const QString& name) {
+  const auto& all = display_.isosurfaces();
+  const auto found = std::ranges::find(all, isosurface, &IsosurfaceLook::id);
+  if (found == all.end()) return false;
+  IsosurfaceLook look = *found;
+  look.name = name;
+  display_.change_isosurface(look);
+  return true;
+}
+
+bool ProjectTree::rename_volume(Id volume, const QString& name) {
+  const auto& volumes = document_.volumes();
+  const auto found = std::ranges::find(volumes, volume, &project::VolumeRecord::id);
+  if (found == volumes.end()) return false;
+  project::VolumeRecord record = *found;
+  record.name = name.toStdString();
+  try {
+    document_.store().update_volume(record);
+  } catch (const Error& error) {
+    tell(error);
+    return false;
+  }
+  document_.reload_volumes();
+  return true;
+}
+
+bool ProjectTree::rename_view(const QString& former, const QString& name) {
   try {
     project::Project& project = document_.store();
     for (const project::ViewRecord& other : project.views()) {
@@ -274,14 +336,14 @@ bool ProjectTree::rename(const Row& row, const QString& name) {
       Q_EMIT document_.failed(tr("there is a view %1 already").arg(name), tr("choose another name"));
       return false;
     }
-    project::ViewRecord view = project.view(row.name.toStdString());
+    project::ViewRecord view = project.view(former.toStdString());
     view.name = name.toStdString();
     project.save_view(view);
-    const auto shown = project.setting(setting_of_view(row.name));
+    const auto shown = project.setting(setting_of_view(former));
     if (shown) project.set_setting(setting_of_view(name), *shown);
-    project.delete_view(row.name.toStdString());
+    project.delete_view(former.toStdString());
   } catch (const Error& error) {
-    Q_EMIT document_.failed(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
+    tell(error);
     return false;
   }
   Q_EMIT document_.views_changed();

@@ -1,5 +1,6 @@
 // What is in the project, as a tree: volumes, faults, isosurfaces, runs, views. Check boxes show and hide,
-// names are edited in place; a rename or removal of a fault is one edit.
+// names are edited in place; a rename or removal of a fault is one edit, volumes and runs are outside of the
+// history.
 #pragma once
 #include <QAbstractItemModel>
 #include <QColor>
@@ -28,7 +29,9 @@ class ProjectTree final : public QAbstractItemModel {
   // Nothing for a heading.
   Item item_of(const QModelIndex& index) const;
   QModelIndex index_of(const Item& item) const;
-  // Faults leave by one edit, isosurfaces and views at once. Volumes and runs stay: whether any item left.
+  // Faults leave by one edit; isosurfaces, views and volumes at once, a volume with its isosurfaces and
+  // without its file. Runs stay, since a large one takes its time: Project::delete_run. Whether any item
+  // left.
   bool remove(const std::vector<Item>& items);
 
   QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;
@@ -57,7 +60,12 @@ class ProjectTree final : public QAbstractItemModel {
   // Makes the rows of a group equal to those now, telling what came, went and changed.
   void sync(Group group);
   bool rename(const Row& row, const QString& name);
+  bool rename_isosurface(Id isosurface, const QString& name);
+  bool rename_volume(Id volume, const QString& name);
+  bool rename_view(const QString& former, const QString& name);
+  bool remove_volume(Id volume);
   bool show(const Row& row, bool on);
+  void tell(const Error& error);
   QModelIndex heading(Group group) const;
 
   Document& document_;

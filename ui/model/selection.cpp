@@ -1,5 +1,6 @@
 #include "ui/model/selection.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "ui/model/fault_commands.h"
@@ -7,8 +8,9 @@
 namespace footwall::ui {
 namespace {
 
-void toggle(std::set<Id>& ids, Id id) {
-  if (ids.erase(id) == 0) ids.insert(id);
+// Whether it is among them now.
+bool toggle(std::set<Id>& ids, Id id) {
+  return ids.erase(id) == 0 && ids.insert(id).second;
 }
 
 }  // namespace
@@ -16,6 +18,7 @@ void toggle(std::set<Id>& ids, Id id) {
 Selection::Selection(Document& document, QObject* parent) : QObject(parent), document_(document) {
   connect(&document_, &Document::shapes_changed, this, &Selection::drop_what_is_gone);
   connect(&document_, &Document::faults_changed, this, &Selection::drop_what_is_gone);
+  connect(&document_, &Document::volumes_changed, this, &Selection::drop_what_is_gone);
 }
 
 void Selection::select(const Item& item, bool extend) {
@@ -24,10 +27,11 @@ void Selection::select(const Item& item, bool extend) {
     pillars_.clear();
     nodes_.clear();
   }
-  if (item.kind == Item::Kind::kFault || item.kind == Item::Kind::kFace) toggle(faults_, item.id);
-  if (item.kind == Item::Kind::kPillar) toggle(pillars_, item.id);
-  if (item.kind == Item::Kind::kNode) toggle(nodes_, item.id);
-  current_ = item;
+  bool stays = true;
+  if (item.kind == Item::Kind::kFault || item.kind == Item::Kind::kFace) stays = toggle(faults_, item.id);
+  if (item.kind == Item::Kind::kPillar) stays = toggle(pillars_, item.id);
+  if (item.kind == Item::Kind::kNode) stays = toggle(nodes_, item.id);
+  current_ = stays ? item : only_one();
   Id active = active_fault_;
   if (item.kind == Item::Kind::kFault || item.kind == Item::Kind::kFace) active = item.id;
   const Fault* owner = item.kind == Item::Kind::kPillar ? document_.fault_of_pillar(item.id)
@@ -46,10 +50,7 @@ void Selection::select_all(std::set<Id> faults, std::set<Id> pillars, std::set<I
   faults_.merge(faults);
   pillars_.merge(pillars);
   nodes_.merge(nodes);
-  current_ = {};
-  if (faults_.size() == 1) current_ = {.kind = Item::Kind::kFault, .id = *faults_.begin()};
-  if (pillars_.size() == 1) current_ = {.kind = Item::Kind::kPillar, .id = *pillars_.begin()};
-  if (nodes_.size() == 1) current_ = {.kind = Item::Kind::kNode, .id = *nodes_.begin()};
+  current_ = only_one();
   announce(faults_.size() == 1 ? *faults_.begin() : active_fault_);
 }
 
@@ -61,6 +62,27 @@ void Selection::select_by_lasso(std::set<Id> faults, std::set<Id> pillars, std::
   });
   select_all(std::move(faults), std::move(pillars), std::move(nodes));
   if (!unassigned.empty() && !document_.read_only()) Q_EMIT unassigned_caught(unassigned);
+}
+
+Item Selection::only_one() const {
+  if (faults_.size() + pillars_.size() + nodes_.size() != 1) return {};
+  if (!faults_.empty()) return {.kind = Item::Kind::kFault, .id = *faults_.begin()};
+  if (!pillars_.empty()) return {.kind = Item::Kind::kPillar, .id = *pillars_.begin()};
+  return {.kind = Item::Kind::kNode, .id = *nodes_.begin()};
+}
+
+Item Selection::owner() const {
+  Id fault = 0;
+  const auto is_another = [&fault](const Fault* of) {
+    if (of != nullptr && fault == 0) fault = of->record.id;
+    return of != nullptr && of->record.id != fault;
+  };
+  if (std::ranges::any_of(faults_, [&](Id id) { return is_another(document_.fault(id)); }) ||
+      std::ranges::any_of(pillars_, [&](Id id) { return is_another(document_.fault_of_pillar(id)); }) ||
+      std::ranges::any_of(nodes_, [&](Id id) { return is_another(document_.fault_of_node(id)); })) {
+    return {};
+  }
+  return fault != 0 ? Item{.kind = Item::Kind::kFault, .id = fault} : current_;
 }
 
 void Selection::set_active_fault(Id fault) {
@@ -89,6 +111,9 @@ void Selection::drop_what_is_gone() {
         return document_.fault_of_pillar(item.id) == nullptr;
       case Item::Kind::kNode:
         return document_.fault_of_node(item.id) == nullptr;
+      case Item::Kind::kVolume:
+        return std::ranges::find(document_.volumes(), item.id, &project::VolumeRecord::id) ==
+               document_.volumes().end();
       default:
         return false;
     }

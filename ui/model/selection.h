@@ -40,6 +40,9 @@ class Selection final : public QObject {
 
   // The item last selected; the inspector shows it.
   const Item& current() const { return current_; }
+  // What it belongs to that has a name: the fault of faces, pillars and nodes, else the item itself. Nothing
+  // where they are of several faults.
+  Item owner() const;
   // The fault of the current item, or 0: where picks go.
   Id active_fault() const { return active_fault_; }
   const std::set<Id>& faults() const { return faults_; }
@@ -64,6 +67,8 @@ class Selection final : public QObject {
   void unassigned_caught(const std::set<footwall::ui::Id>& pillars);
 
  private:
+  // The one thing that is selected; nothing where there are several.
+  Item only_one() const;
   void drop_what_is_gone();
   void announce(Id active);
 

@@ -4,10 +4,15 @@
 #include <QContextMenuEvent>
 #include <QItemSelectionModel>
 #include <QMenu>
+#include <QMessageBox>
+#include <QMouseEvent>
 #include <QPainter>
+#include <QPushButton>
+#include <algorithm>
 #include <utility>
 
 #include "ui/model/fault_commands.h"
+#include "ui/model/project_job.h"
 #include "ui/panels/project_row.h"
 
 namespace footwall::ui {
@@ -44,8 +49,8 @@ ProjectPanel::ProjectPanel(Workbench& workbench, FindAction action, QWidget* par
 }
 
 void ProjectPanel::rename_current() {
-  const QModelIndex index = tree_->index_of(workbench_.selection.current());
-  if (!index.isValid()) return;
+  const QModelIndex index = tree_->index_of(workbench_.selection.owner());
+  if (!index.isValid() || (index.flags() & Qt::ItemIsEditable) == 0) return;
   setFocus();
   setCurrentIndex(index);
   edit(index);
@@ -57,7 +62,79 @@ void ProjectPanel::delete_selected() {
     delete_items(workbench_.document, selection.faults(), selection.pillars(), selection.nodes());
     return;
   }
-  tree_->remove({selection.current()});
+  std::vector<Item> at_once, for_good;
+  for (const QModelIndex& index : selectionModel()->selectedIndexes()) {
+    const Item item = tree_->item_of(index);
+    const bool lasts = item.kind == Item::Kind::kVolume || item.kind == Item::Kind::kRun;
+    (lasts ? for_good : at_once).push_back(item);
+  }
+  tree_->remove(at_once);
+  if (!for_good.empty()) ask_to_delete(for_good);
+}
+
+void ProjectPanel::ask_to_delete(const std::vector<Item>& items) {
+  QStringList words{tr("This cannot be undone: volumes and runs are outside of the history.")};
+  for (const Item& item : items) {
+    if (items.size() > 1) words.append(tree_->index_of(item).data().toString());
+    const auto& volumes = workbench_.document.volumes();
+    const auto volume = std::ranges::find(volumes, item.id, &project::VolumeRecord::id);
+    if (item.kind != Item::Kind::kVolume || volume == volumes.end()) continue;
+    words.append(
+        tr("Its isosurfaces go, too; its file stays on the disk: %1")
+            .arg(QString::fromStdString(workbench_.document.project().volume_path(*volume).string())));
+  }
+  auto* box =
+      new QMessageBox(QMessageBox::Warning, tr("Delete"),
+                      items.size() > 1 ? tr("Delete these %1?").arg(items.size())
+                                       : tr("Delete %1?").arg(tree_->index_of(items[0]).data().toString()),
+                      QMessageBox::Cancel, this);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->setTextFormat(Qt::PlainText);
+  box->setInformativeText(words.join(QLatin1Char('\n')));
+  QPushButton* yes = box->addButton(tr("Delete"), QMessageBox::DestructiveRole);
+  yes->setObjectName(QStringLiteral("delete"));
+  connect(yes, &QPushButton::clicked, this, [this, items] { delete_for_good(items); });
+  box->setDefaultButton(QMessageBox::Cancel);
+  box->open();
+}
+
+// Runs by a job: the faces of a large one fill hundreds of megabytes.
+void ProjectPanel::delete_for_good(const std::vector<Item>& items) {
+  std::vector<Item> volumes;
+  std::vector<Id> runs;
+  for (const Item& item : items) {
+    if (item.kind == Item::Kind::kVolume) volumes.push_back(item);
+    if (item.kind == Item::Kind::kRun) runs.push_back(item.id);
+  }
+  const bool was_shown = std::ranges::find(items, workbench_.selection.current()) != items.end();
+  tree_->remove(volumes);
+  if (was_shown) workbench_.selection.clear();
+  if (runs.empty()) return;
+  Document& document = workbench_.document;
+  try {
+    start_on_project(workbench_, runs.size() > 1 ? tr("Delete %1 runs").arg(runs.size()) : tr("Delete a run"),
+                     [runs, &document](project::Project& project, const JobContext& job) {
+                       for (const Id run : runs) {
+                         job.check();
+                         project.delete_run(run);
+                         QMetaObject::invokeMethod(
+                             &document, [&document] { Q_EMIT document.runs_changed(); },
+                             Qt::QueuedConnection);
+                       }
+                     });
+  } catch (const Error& error) {
+    Q_EMIT document.failed(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
+  }
+}
+
+// A click on nothing: nothing is selected, and picks go to no fault.
+void ProjectPanel::mousePressEvent(QMouseEvent* event) {
+  QTreeView::mousePressEvent(event);
+  if (event->button() != Qt::LeftButton || event->modifiers() != Qt::NoModifier ||
+      indexAt(event->position().toPoint()).isValid())
+    return;
+  workbench_.selection.clear();
+  workbench_.selection.set_active_fault(0);
 }
 
 void ProjectPanel::contextMenuEvent(QContextMenuEvent* event) {
@@ -70,11 +147,10 @@ void ProjectPanel::contextMenuEvent(QContextMenuEvent* event) {
     for (const char* id : {"edit.rename", "fault.colour", "fault.lock", "fault.merge", "fault.interpolate"})
       add(id);
     menu.addSeparator();
-  } else if (item.kind == Item::Kind::kView) {
+  } else if (item && item.kind != Item::Kind::kRun) {
     add("edit.rename");
   }
-  if (item.kind == Item::Kind::kFault || item.kind == Item::Kind::kView ||
-      item.kind == Item::Kind::kIsosurface) {
+  if (item) {
     add("edit.delete");
   } else {
     for (const char* id : {"fault.new", "file.import"}) add(id);
@@ -135,13 +211,7 @@ void ProjectPanel::show_selection() {
   };
   QModelIndex current;
   for (const Id fault : selection.faults()) current = add({.kind = Item::Kind::kFault, .id = fault});
-  Item one = selection.current();
-  const Fault* owner = one.kind == Item::Kind::kPillar ? workbench_.document.fault_of_pillar(one.id)
-                       : one.kind == Item::Kind::kNode ? workbench_.document.fault_of_node(one.id)
-                                                       : nullptr;
-  if (owner != nullptr) one = {.kind = Item::Kind::kFault, .id = owner->record.id};
-  if (one.kind == Item::Kind::kFace) one = {.kind = Item::Kind::kFault, .id = one.id};
-  if (const QModelIndex index = add(one); index.isValid()) current = index;
+  if (const QModelIndex index = add(selection.owner()); index.isValid()) current = index;
   showing_ = true;
   selectionModel()->select(rows, QItemSelectionModel::ClearAndSelect);
   if (current.isValid()) selectionModel()->setCurrentIndex(current, QItemSelectionModel::NoUpdate);

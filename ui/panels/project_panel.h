@@ -22,7 +22,8 @@ class ProjectPanel final : public QTreeView {
   ProjectTree& tree() { return *tree_; }
   // The selected row's name becomes a field.
   void rename_current();
-  // What is selected here or in a view: faults, pillars and nodes by one edit.
+  // What is selected here or in a view: faults, pillars and nodes by one edit. Volumes and runs, which
+  // nothing brings back, after a question.
   void delete_selected();
 
  Q_SIGNALS:
@@ -32,6 +33,7 @@ class ProjectPanel final : public QTreeView {
   void isosurface_asked(footwall::ui::Id isosurface);
 
  protected:
+  void mousePressEvent(QMouseEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
   void drawBranches(QPainter* painter, const QRect& rect, const QModelIndex& index) const override;
   bool viewportEvent(QEvent* event) override;
@@ -39,6 +41,8 @@ class ProjectPanel final : public QTreeView {
 
  private:
   void show_selection();
+  void ask_to_delete(const std::vector<Item>& items);
+  void delete_for_good(const std::vector<Item>& items);
 
   Workbench& workbench_;
   FindAction action_;

@@ -121,8 +121,15 @@ unsigned Actions::met() const {
   add(!selection.pillars().empty() || !selection.faults().empty(), kPillars);
   const Item::Kind kind = selection.current().kind;
   add(!selection.faults().empty() || !selection.pillars().empty() || !selection.nodes().empty() ||
-          kind == Item::Kind::kIsosurface || kind == Item::Kind::kView,
+          kind == Item::Kind::kIsosurface || kind == Item::Kind::kView || kind == Item::Kind::kVolume ||
+          kind == Item::Kind::kRun,
       kAnything);
+  const Item::Kind named = selection.owner().kind;
+  add(named == Item::Kind::kFault || named == Item::Kind::kVolume || named == Item::Kind::kIsosurface ||
+          named == Item::Kind::kView,
+      kNameable);
+  add(!bench->document.faults().empty(), kFaults);
+  add(bench->document.fault(selection.active_fault()) != nullptr, kActive);
   add(bench->picking.tool() == Tool::kSelect && (kind == Item::Kind::kFace || !selection.pillars().empty()),
       kShiftable);
   add(bench->document.can_undo(), kUndo);

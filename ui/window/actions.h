@@ -33,6 +33,9 @@ enum Needs : unsigned {
   kJob = 4096,         // a job runs
   kScene = 16384,      // the scene is open and built
   kPicked = 8192,      // pillars themselves are selected
+  kNameable = 65536,   // what is selected belongs to something that can have another name
+  kFaults = 131072,    // there are faults, selected or not
+  kActive = 262144,    // picks go to a fault
   kShiftable = 32768,  // with the Select tool a face or pillars: what a suggested shift is of
   kLine = 1 << 20,     // the active view is a section along a line
 };

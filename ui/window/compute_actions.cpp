@@ -45,7 +45,7 @@ std::vector<ActionRow> compute_actions() {
        kProject | kSurvey | kVolume, update_all},
       {"compute.run", M::kCompute, QT_TRANSLATE_NOOP("Actions", "&Run…"), "Ctrl+Alt+U", "update",
        QT_TRANSLATE_NOOP("Actions", "Statistics of all or selected faults as a run that is kept, by a job"),
-       kProject | kWriting | kSurvey | kVolume | kFault, open_run_dialog},
+       kProject | kWriting | kSurvey | kVolume | kFaults, open_run_dialog},
       {"compute.compare", M::kCompute, QT_TRANSLATE_NOOP("Actions", "Com&pare runs…"), "Ctrl+Alt+C",
        "compare",
        QT_TRANSLATE_NOOP("Actions",

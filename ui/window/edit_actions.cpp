@@ -130,10 +130,10 @@ std::vector<ActionRow> first_actions() {
                          "Drop the oldest steps of the history for good, to make the project smaller"),
        kProject | kWriting, open_trim_history_dialog},
       {"edit.rename", M::kEdit, QT_TRANSLATE_NOOP("Actions", "Re&name"), "F2", "rename",
-       QT_TRANSLATE_NOOP("Actions", "Give what is selected in the project panel another name"),
-       kProject | kWriting, rename, nullptr, true},
+       QT_TRANSLATE_NOOP("Actions", "Give the selected fault, volume, isosurface or view another name"),
+       kProject | kWriting | kNameable, rename, nullptr, true},
       {"edit.delete", M::kEdit, QT_TRANSLATE_NOOP("Actions", "&Delete"), "Del", "delete",
-       QT_TRANSLATE_NOOP("Actions", "Delete the selected faults, pillars or nodes; undo brings them back"),
+       QT_TRANSLATE_NOOP("Actions", "Delete what is selected; undo brings faults, pillars and nodes back"),
        kProject | kWriting | kAnything,
        [](MainWindow& window) {
          if (ProjectPanel* panel = project_panel(window)) panel->delete_selected();

@@ -48,6 +48,17 @@ void make_fault(MainWindow& window) {
   if (made != 0) window.workbench()->selection.select({.kind = Item::Kind::kFault, .id = made});
 }
 
+// The pillar under way ends as by Esc, but the tool stays: the next pick starts an unassigned one.
+void leave_fault(MainWindow& window) {
+  Workbench& bench = *window.workbench();
+  const Tool tool = bench.picking.tool();
+  bench.picking.set_tool(tool);  // puts back what the hand is doing
+  bench.picking.key_press(Qt::Key_Escape, {});
+  bench.picking.set_tool(tool);
+  bench.selection.clear();
+  bench.selection.set_active_fault(0);
+}
+
 void choose_colour(MainWindow& window) {
   const std::set<Id> faults = chosen_faults(window);
   const Fault* first = document(window).fault(*faults.begin());
@@ -157,6 +168,9 @@ std::vector<ActionRow> fault_actions() {
   return {
       {"fault.new", M::kFault, QT_TRANSLATE_NOOP("Actions", "&New fault"), "Shift+N", "fault-new",
        QT_TRANSLATE_NOOP("Actions", "Make a fault; picks go to it from now on"), kEdit, make_fault},
+      {"fault.none", M::kFault, QT_TRANSLATE_NOOP("Actions", "No active fault"), "Shift+Esc", "fault-none",
+       QT_TRANSLATE_NOOP("Actions", "Select nothing; picks go to unassigned pillars from now on"),
+       kEdit | kActive, leave_fault},
       {"fault.colour", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Colour…"), "Ctrl+Shift+C", "palette",
        QT_TRANSLATE_NOOP("Actions", "Another colour for the selected faults"), kEdit | kFault, choose_colour},
       {"fault.lock", M::kFault, QT_TRANSLATE_NOOP("Actions", "&Lock"), "Ctrl+L", "lock",

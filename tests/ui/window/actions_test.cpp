@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "ui/model/fault_commands.h"
 #include "ui/sample_project.h"
 #include "ui/test_class.h"
 #include "ui/window/docks.h"
@@ -29,6 +30,8 @@ class ActionsTest final : public QObject {
   void without_a_project_only_what_needs_none_is_enabled();
   void shortcuts_do_what_the_menu_does();
   void enter_accepts_a_shift_over_the_views_alone();
+  void shift_escape_leaves_the_active_fault();
+  void names_and_runs_need_something_to_name_and_run();
   void icons_follow_the_theme();
   void help_lists_every_action();
   void the_guide_has_every_action_with_its_keys();
@@ -184,6 +187,68 @@ void ActionsTest::enter_accepts_a_shift_over_the_views_alone() {
   QTRY_VERIFY(window.focusWidget() != nullptr && !window.views()->isAncestorOf(window.focusWidget()));
   QTest::keyClick(window.focusWidget(), Qt::Key_Return);
   QCOMPARE(triggered.size(), 1);
+}
+
+void ActionsTest::shift_escape_leaves_the_active_fault() {
+  const SampleProject sample;
+  MainWindow window({});
+  open_with_the_keys(window, sample);
+  if (QTest::currentTestFailed()) return;
+  Workbench& bench = *window.workbench();
+  const QAction* leave = window.actions().action(QStringLiteral("fault.none"));
+  QVERIFY(!leave->isEnabled());
+  const Id fault = bench.document.faults().front().record.id;
+  bench.selection.select({.kind = Item::Kind::kFault, .id = fault});
+  QVERIFY(leave->isEnabled());
+  bench.picking.set_tool(Tool::kPick);
+  Pointer pointer;
+  pointer.place = {10, 20, 30};
+  pointer.section.index = 10;
+  pointer.on_section = true;
+  const auto pick = [&] {
+    pointer.button = Qt::LeftButton;
+    bench.picking.move(pointer);
+    QVERIFY(bench.picking.press(pointer));
+    QVERIFY(bench.picking.release(pointer));
+  };
+  const std::size_t pillars = bench.document.faults().front().pillars.size();
+  pick();
+  QCOMPARE(bench.document.fault(fault)->pillars.size(), pillars + 1);
+  QVERIFY(bench.picking.active_pillar() != 0);
+  QTest::keyClick(&window, Qt::Key_Escape, Qt::ShiftModifier);
+  QCOMPARE(bench.selection.active_fault(), 0);
+  QVERIFY(!bench.selection.current());
+  QCOMPARE(bench.picking.active_pillar(), 0);
+  QCOMPARE(bench.picking.tool(), Tool::kPick);
+  QVERIFY(!leave->isEnabled());
+  pointer.place.j = 25;
+  pick();
+  QCOMPARE(bench.document.fault(fault)->pillars.size(), pillars + 1);
+  QVERIFY(is_unassigned(bench.document.faults().back()));
+  QCOMPARE(bench.document.faults().back().pillars.size(), 1U);
+}
+
+void ActionsTest::names_and_runs_need_something_to_name_and_run() {
+  const SampleProject sample;
+  MainWindow window({});
+  QVERIFY(window.open_project(QString::fromStdString(sample.path().string())));
+  Workbench& bench = *window.workbench();
+  const auto enabled = [&](const char* id) {
+    return window.actions().action(QString::fromLatin1(id))->isEnabled();
+  };
+  QVERIFY(!enabled("edit.rename"));
+  QVERIFY(enabled("compute.run"));  // of all faults, though none is selected
+  const Fault& fault = bench.document.faults()[0];
+  bench.selection.select({.kind = Item::Kind::kNode, .id = fault.pillars[0].nodes[0].id});
+  QVERIFY(enabled("edit.rename"));
+  bench.selection.select_all({fault.record.id, bench.document.faults()[1].record.id}, {}, {});
+  QVERIFY(!enabled("edit.rename"));
+  bench.selection.select({.kind = Item::Kind::kVolume, .id = bench.display.volume()});
+  QVERIFY(enabled("edit.rename"));
+  QVERIFY(enabled("edit.delete"));
+  window.actions().action(QStringLiteral("edit.select-all"))->trigger();
+  window.actions().action(QStringLiteral("edit.delete"))->trigger();
+  QVERIFY(!enabled("compute.run"));
 }
 
 void ActionsTest::icons_follow_the_theme() {

@@ -58,6 +58,7 @@ class EngineWindowTest final : public QObject {
   void comes_back_by_itself_after_a_death();
   void gives_up_after_three_deaths_and_starts_again_when_asked();
   void edits_without_an_engine_that_cannot_be_started();
+  void goes_on_without_the_volume_that_it_computes_on();
 
  private:
   const QByteArray path_ = qgetenv("PATH");
@@ -139,6 +140,30 @@ void EngineWindowTest::edits_without_an_engine_that_cannot_be_started() {
   qputenv("PATH", path_);
   QVERIFY(desk.window.banners().press(kBanner, 0));
   QTRY_VERIFY_WITH_TIMEOUT(desk.is_fresh(), kPatience);
+  QVERIFY(!desk.window.banners().has(kBanner));
+}
+
+void EngineWindowTest::goes_on_without_the_volume_that_it_computes_on() {
+  Desk desk;
+  QVERIFY(desk.opened);
+  QTRY_VERIFY_WITH_TIMEOUT(desk.is_fresh(), kPatience);
+  project::VolumeRecord again = desk.bench().document.volumes().front();
+  const Id first = again.id;
+  QCOMPARE(desk.bench().engine.volume(), first);
+  again.name = "the same again";
+  const Id second = desk.bench().document.store().add_volume(again);
+  desk.bench().document.reload_volumes();
+  desk.bench().document.store().delete_volume(first);
+  desk.bench().document.reload_volumes();
+  QCOMPARE(desk.bench().engine.volume(), second);
+  QVERIFY(desk.move_node(40));
+  QTRY_VERIFY_WITH_TIMEOUT(desk.is_fresh(), kPatience);
+  // The last one: edits go on without colours, and the engine is not thought dead.
+  desk.bench().document.store().delete_volume(second);
+  desk.bench().document.reload_volumes();
+  QCOMPARE(desk.bench().engine.volume(), 0);
+  QVERIFY(desk.move_node(80));
+  QTRY_VERIFY_WITH_TIMEOUT(desk.freshness() != Freshness::kFresh, kPatience);
   QVERIFY(!desk.window.banners().has(kBanner));
 }
 

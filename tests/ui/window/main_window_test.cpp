@@ -66,6 +66,7 @@ class MainWindowTest final : public QObject {
   void reads_out_the_cursor();
   void goes_to_a_step_of_the_history_by_a_click();
   void inspects_what_is_selected();
+  void goes_on_without_the_volume_shown();
   void saves_and_restores_views();
   void an_idle_window_paints_nothing();
   void says_that_the_engine_is_off();
@@ -345,6 +346,40 @@ void MainWindowTest::inspects_what_is_selected() {
   QVERIFY(inspector->shown().title.startsWith(QStringLiteral("Volume")));
   bench.selection.select({.kind = Item::Kind::kSurvey});
   QCOMPARE(inspector->shown().title, QStringLiteral("Survey"));
+}
+
+void MainWindowTest::goes_on_without_the_volume_shown() {
+  const SampleProject sample;
+  MainWindow window({});
+  window.resize(1400, 900);
+  window.show();
+  QVERIFY(window.open_project(text_of(sample.path())));
+  Workbench& bench = *window.workbench();
+  QTRY_VERIFY(window.is_settled());
+  // One volume after the other, as the picture of an isosurface and as triangles, until none is left.
+  while (!bench.document.volumes().empty()) {
+    const Id volume = bench.document.volumes().front().id;
+    bench.display.set_volume(volume);
+    bench.display.add_isosurface(volume, 0.5);
+    IsosurfaceLook mesh = bench.display.isosurfaces().front();
+    mesh.id = bench.display.add_isosurface(volume, 0.6);
+    mesh.as_picture = false;
+    bench.display.change_isosurface(mesh);
+    bench.selection.select({.kind = Item::Kind::kVolume, .id = volume});
+    window.actions().action(QStringLiteral("edit.delete"))->trigger();
+    auto* yes = window.findChild<QPushButton*>(QStringLiteral("delete"));
+    QVERIFY(yes != nullptr);
+    yes->click();
+    QVERIFY(bench.display.volume() != volume);
+    QVERIFY(bench.display.isosurfaces().empty());
+    QTRY_VERIFY(window.is_settled());
+    QTRY_VERIFY(window.findChild<QPushButton*>(QStringLiteral("delete")) == nullptr);
+  }
+  QCOMPARE(bench.display.volume(), 0);
+  QVERIFY(!window.banners().has(QStringLiteral("failure")));
+  QVERIFY(!window.actions().action(QStringLiteral("compute.run"))->isEnabled());
+  QVERIFY(new_fault(bench.document) != 0);
+  QVERIFY(bench.document.undo());
 }
 
 void MainWindowTest::saves_and_restores_views() {

@@ -2,6 +2,8 @@
 
 #include <QAbstractItemModelTester>
 #include <QLineEdit>
+#include <QMessageBox>
+#include <QPushButton>
 #include <QSignalSpy>
 #include <QTest>
 
@@ -16,6 +18,15 @@ namespace {
 
 Item fault_item(Id id) {
   return {.kind = Item::Kind::kFault, .id = id};
+}
+
+void press(const ProjectPanel& panel, const char* button) {
+  const auto* box = panel.findChild<QMessageBox*>();
+  QVERIFY(box != nullptr && box->isVisible());
+  if (button == nullptr) return box->button(QMessageBox::Cancel)->click();
+  auto* one = box->findChild<QPushButton*>(QLatin1String(button));
+  QVERIFY(one != nullptr);
+  one->click();
 }
 
 std::unique_ptr<Workbench> open(const SampleProject& sample) {
@@ -37,6 +48,11 @@ class ProjectTreeTest final : public QObject {
   void selects_both_ways();
   void a_click_on_the_ring_hides();
   void rows_under_the_mouse_are_hovered();
+  void volumes_and_isosurfaces_are_renamed();
+  void names_the_fault_of_what_is_selected();
+  void a_volume_is_deleted_after_a_question();
+  void a_run_is_deleted_after_a_question();
+  void a_click_on_nothing_leaves_the_active_fault();
 };
 
 void ProjectTreeTest::lists_what_there_is() {
@@ -229,6 +245,137 @@ void ProjectTreeTest::rows_under_the_mouse_are_hovered() {
   QEvent leave(QEvent::Leave);
   QCoreApplication::sendEvent(panel.viewport(), &leave);
   QVERIFY(!hovered);
+}
+
+void ProjectTreeTest::volumes_and_isosurfaces_are_renamed() {
+  const SampleProject sample;
+  const auto bench = open(sample);
+  ProjectTree tree(bench->document, bench->display);
+  QAbstractItemModelTester tester(&tree, QAbstractItemModelTester::FailureReportingMode::QtTest);
+  const Item volume{.kind = Item::Kind::kVolume, .id = bench->document.volumes().front().id};
+  const Item isosurface{.kind = Item::Kind::kIsosurface, .id = bench->display.add_isosurface(volume.id, 0.5)};
+  const QString computed = tree.index_of(isosurface).data().toString();
+  QVERIFY(tree.setData(tree.index_of(isosurface), QStringLiteral("bright spot"), Qt::EditRole));
+  QCOMPARE(tree.index_of(isosurface).data().toString(), QStringLiteral("bright spot"));
+  // The name is kept with the rest of the look; without one it is called after its value again.
+  Display other(bench->document);
+  other.from_json(bench->display.to_json());
+  QCOMPARE(other.isosurfaces().front().name, QStringLiteral("bright spot"));
+  QVERIFY(tree.setData(tree.index_of(isosurface), QString(), Qt::EditRole));
+  QCOMPARE(tree.index_of(isosurface).data().toString(), computed);
+
+  const std::size_t steps = bench->document.history().size();
+  QVERIFY(tree.setData(tree.index_of(volume), QStringLiteral("full stack"), Qt::EditRole));
+  QCOMPARE(bench->document.project().volume("full stack").id, volume.id);
+  QCOMPARE(bench->document.history().size(), steps);
+  QCOMPARE(tree.index_of(isosurface).data().toString(), QStringLiteral("full stack = 0.5"));
+  QSignalSpy failed(&bench->document, &Document::failed);
+  QVERIFY(!tree.setData(tree.index_of(volume), QString(), Qt::EditRole));
+  QCOMPARE(failed.size(), 1);
+  QCOMPARE(tree.index_of(volume).data().toString(), QStringLiteral("full stack"));
+}
+
+void ProjectTreeTest::names_the_fault_of_what_is_selected() {
+  const SampleProject sample;
+  const auto bench = open(sample);
+  ProjectPanel panel(*bench, [](const QString&) -> QAction* { return nullptr; });
+  panel.show();
+  const Fault& fault = bench->document.faults()[1];
+  const survey::Pillar& pillar = fault.pillars[0];
+  Selection& selection = bench->selection;
+  const Item face{.kind = Item::Kind::kFace, .id = fault.record.id, .panel = 1};
+  for (const Item& one : {face, Item{.kind = Item::Kind::kPillar, .id = pillar.id},
+                          Item{.kind = Item::Kind::kNode, .id = pillar.nodes[0].id}}) {
+    selection.select(one);
+    QCOMPARE(selection.owner(), fault_item(fault.record.id));
+  }
+  selection.select_all({}, {fault.pillars[1].id}, {pillar.nodes[0].id, pillar.nodes[1].id});
+  QCOMPARE(selection.owner(), fault_item(fault.record.id));
+  panel.rename_current();
+  auto* field = panel.findChild<QLineEdit*>();
+  QVERIFY(field != nullptr);
+  QCOMPARE(field->text(), QString::fromStdString(fault.record.name));
+  const Id of_another = bench->document.faults()[0].pillars[0].id;
+  selection.select_all({}, {of_another}, {}, true);
+  QVERIFY(!selection.owner());
+  const Item volume{.kind = Item::Kind::kVolume, .id = bench->display.volume()};
+  selection.select(volume);
+  QCOMPARE(selection.owner(), volume);
+}
+
+void ProjectTreeTest::a_volume_is_deleted_after_a_question() {
+  const SampleProject sample;
+  const auto bench = open(sample);
+  ProjectPanel panel(*bench, [](const QString&) -> QAction* { return nullptr; });
+  QAbstractItemModelTester tester(&panel.tree(), QAbstractItemModelTester::FailureReportingMode::QtTest);
+  panel.show();
+  const std::size_t volumes = bench->document.volumes().size();
+  const project::VolumeRecord volume = bench->document.volumes().front();
+  QCOMPARE(bench->display.volume(), volume.id);
+  bench->display.add_isosurface(volume.id, 0.5);
+  const std::filesystem::path file = bench->document.project().volume_path(volume);
+  const Item item{.kind = Item::Kind::kVolume, .id = volume.id};
+  bench->selection.select(item);
+  panel.delete_selected();
+  const auto* box = panel.findChild<QMessageBox*>();
+  QVERIFY(box != nullptr);
+  QVERIFY(box->informativeText().contains(QString::fromStdString(file.string())));
+  QVERIFY(box->informativeText().contains(QStringLiteral("cannot be undone")));
+  press(panel, nullptr);
+  QTRY_VERIFY(panel.findChild<QMessageBox*>() == nullptr);
+  QCOMPARE(bench->document.volumes().size(), volumes);
+  panel.delete_selected();
+  press(panel, "delete");
+  QCOMPARE(bench->document.volumes().size(), volumes - 1);
+  QVERIFY(!panel.tree().index_of(item).isValid());
+  QVERIFY(bench->display.isosurfaces().empty());
+  QVERIFY(bench->display.volume() != volume.id);
+  QVERIFY(!bench->selection.current());
+  QVERIFY(std::filesystem::exists(file));
+}
+
+void ProjectTreeTest::a_run_is_deleted_after_a_question() {
+  const SampleProject sample;
+  const auto bench = open(sample);
+  project::RunRecord run;
+  run.volume = "amplitude";
+  for (const char* name : {"first", "second", "third"}) {
+    run.name = name;
+    bench->document.store().add_run(run, {});
+  }
+  ProjectPanel panel(*bench, [](const QString&) -> QAction* { return nullptr; });
+  QAbstractItemModelTester tester(&panel.tree(), QAbstractItemModelTester::FailureReportingMode::QtTest);
+  panel.show();
+  const QModelIndex runs = panel.tree().index(3, 0);
+  QCOMPARE(panel.tree().rowCount(runs), 3);
+  panel.setCurrentIndex(panel.tree().index(0, 0, runs));
+  QCOMPARE(bench->selection.current().kind, Item::Kind::kRun);
+  panel.selectionModel()->select(panel.tree().index(2, 0, runs), QItemSelectionModel::Select);
+  panel.delete_selected();
+  QCOMPARE(panel.tree().rowCount(runs), 3);
+  press(panel, "delete");
+  QTRY_COMPARE(panel.tree().rowCount(runs), 1);
+  QCOMPARE(bench->document.project().runs().front().name, std::string("second"));
+  QTRY_COMPARE(bench->jobs.running(), 0);
+}
+
+void ProjectTreeTest::a_click_on_nothing_leaves_the_active_fault() {
+  const SampleProject sample;
+  const auto bench = open(sample);
+  ProjectPanel panel(*bench, [](const QString&) -> QAction* { return nullptr; });
+  panel.resize(240, 600);
+  panel.show();
+  QVERIFY(QTest::qWaitForWindowExposed(&panel));
+  const Id fault = bench->document.faults().front().record.id;
+  bench->selection.select(fault_item(fault));
+  bench->selection.clear();
+  QCOMPARE(bench->selection.active_fault(), fault);  // a click beside everything in a view
+  const QPoint nowhere(120, panel.viewport()->height() - 4);
+  QVERIFY(!panel.indexAt(nowhere).isValid());
+  QTest::mouseClick(panel.viewport(), Qt::LeftButton, {}, nowhere);
+  QCOMPARE(bench->selection.active_fault(), 0);
+  QVERIFY(!bench->selection.current());
+  QVERIFY(panel.selectionModel()->selectedIndexes().isEmpty());
 }
 
 static const RegisterTest<ProjectTreeTest> kRegistered;
