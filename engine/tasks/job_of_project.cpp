@@ -8,6 +8,13 @@
 
 namespace footwall::tasks {
 
+std::vector<project::FaultRecord> faults_of(const project::Project& project, const ExtractOptions& options) {
+  if (options.faults.empty()) return chosen_faults(project, options.fault);
+  std::vector<project::FaultRecord> faults;
+  for (const std::int64_t fault : options.faults) faults.push_back(project.fault(fault));
+  return faults;
+}
+
 JobOfProject job_of_project(project::Project& project, const ExtractOptions& options, FreshMeshes meshes,
                             const JobContext& context) {
   JobOfProject made;
@@ -29,8 +36,10 @@ JobOfProject job_of_project(project::Project& project, const ExtractOptions& opt
 
   const survey::Lattice lattice(survey);
   MeshNotes notes;
-  for (const project::FaultRecord& fault : chosen_faults(project, options.fault)) {
-    const auto mesh = fresh_mesh(project, fault, !options.fault.empty(), meshes, notes, context);
+  const std::vector<project::FaultRecord> faults = faults_of(project, options);
+  const bool names_one = options.faults.empty() ? !options.fault.empty() : faults.size() == 1;
+  for (const project::FaultRecord& fault : faults) {
+    const auto mesh = fresh_mesh(project, fault, names_one, meshes, notes, context);
     if (!mesh) continue;
     job.faults.push_back(
         {fault.id, fault.name, fault_faces(fault, *mesh, lattice, volume.origin), mesh->revision});

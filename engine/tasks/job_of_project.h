@@ -1,6 +1,7 @@
 // The batch job that EXTRACT-ALL on a project's faults is: what `extract` runs, what --dry-run looks at and
 // what --write-job writes.
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,8 +20,12 @@ struct ExtractOptions {
   std::string name;    // of the run; empty: "run N"
   extract::Options engine;
   session::LaunchOptions launch;
-  std::optional<double> velocity;  // m/s, for metres in a time survey
+  std::optional<double> velocity;    // m/s, for metres in a time survey
+  std::vector<std::int64_t> faults;  // ids; where there are any, these and not `fault`
 };
+
+// Those that the options name. Throws kNotFound for one that is not there, and for a project without faults.
+std::vector<project::FaultRecord> faults_of(const project::Project& project, const ExtractOptions& options);
 
 struct JobOfProject {
   session::Job job;                       // volume absolute; output still empty

@@ -10,6 +10,8 @@
 namespace footwall::ui {
 namespace {
 
+constexpr int kIsSelected = Qt::UserRole + 1;  // of the row that means the selected faults
+
 QComboBox* box_of(const std::vector<RunChoices::Choice>& choices, const char* name, QWidget* parent) {
   auto* box = new QComboBox(parent);
   box->setObjectName(QLatin1String(name));
@@ -40,6 +42,7 @@ RunDialog::RunDialog(Workbench& workbench, QWidget* parent) : QDialog(parent), w
     if (volume.id == workbench.display.volume()) volume_->setCurrentIndex(volume_->count() - 1);
   }
   fault_ = fault_box(workbench, true, true, this);
+  offer_selected();
   name_ = new QLineEdit(this);
   name_->setObjectName(QStringLiteral("name"));
   name_->setPlaceholderText(tr("run and its number"));
@@ -96,6 +99,16 @@ RunDialog::RunDialog(Workbench& workbench, QWidget* parent) : QDialog(parent), w
   column->addLayout(buttons);
 }
 
+void RunDialog::offer_selected() {
+  const std::set<Id>& faults = workbench_.selection.faults();
+  if (faults.size() < 2) return;
+  selected_.assign(faults.begin(), faults.end());
+  constexpr int kAfterAll = 1;
+  fault_->insertItem(kAfterAll, tr("selected (%1)").arg(selected_.size()));
+  fault_->setItemData(kAfterAll, true, kIsSelected);
+  fault_->setCurrentIndex(kAfterAll);
+}
+
 QWidget* RunDialog::advanced() {
   auto* pane = new QWidget(this);
   auto* form = new QFormLayout(pane);
@@ -117,6 +130,7 @@ tasks::ExtractOptions RunDialog::options() const {
   tasks::ExtractOptions options;
   options.volume = volume_->currentText().toStdString();
   options.fault = fault_->currentData().toString().toStdString();
+  if (fault_->currentData(kIsSelected).toBool()) options.faults = selected_;
   options.name = name_->text().trimmed().toStdString();
   options.engine.exchange = exchange_->currentText().toStdString();
   options.engine.balance = balance_->currentText().toStdString();

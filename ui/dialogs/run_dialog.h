@@ -7,6 +7,7 @@
 #include <QLineEdit>
 #include <QSpinBox>
 #include <QToolButton>
+#include <vector>
 
 #include "ui/dialogs/run_job.h"
 
@@ -16,7 +17,7 @@ class RunDialog final : public QDialog {
   Q_OBJECT
 
  public:
-  // The active fault and the volume shown come first.
+  // The selected faults, where there are several, else the active one, and the volume shown come first.
   explicit RunDialog(Workbench& workbench, QWidget* parent = nullptr);
 
   tasks::ExtractOptions options() const;
@@ -31,7 +32,10 @@ class RunDialog final : public QDialog {
  private:
   QWidget* advanced();
 
+  void offer_selected();
+
   Workbench& workbench_;
+  std::vector<Id> selected_;  // as they were when it opened
   QComboBox *volume_, *fault_, *exchange_, *balance_;
   QLineEdit* name_;
   QSpinBox* ranks_;

@@ -5,7 +5,6 @@
 
 #include "engine/extract/registry.h"
 #include "engine/service/client/running_tasks.h"
-#include "engine/tasks/triangulate.h"
 #include "ui/model/project_job.h"
 
 namespace footwall::ui {
@@ -36,10 +35,11 @@ RunChoices run_choices() {
 
 int start_run(Workbench& workbench, const tasks::ExtractOptions& options, std::function<void(Id)> done) {
   Document& document = workbench.document;
-  tasks::chosen_faults(document.project(), options.fault);
+  const std::size_t faults = tasks::faults_of(document.project(), options).size();
   extract::validate(options.engine);
   if (!options.name.empty()) project::check_name("run", options.name);
-  const QString title = options.fault.empty()
+  const QString title = !options.faults.empty() ? QObject::tr("Statistics of %1 faults").arg(faults)
+                        : options.fault.empty()
                             ? QObject::tr("Statistics of all faults")
                             : QObject::tr("Statistics of %1").arg(QString::fromStdString(options.fault));
   tasks::ExtractOptions chosen = options;

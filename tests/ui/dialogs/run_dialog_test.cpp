@@ -21,6 +21,7 @@ class RunDialogTest final : public QObject {
   void initTestCase() { put_on_dark(); }
   void offers_what_is_built_with_auto_first();
   void runs_as_a_job_and_attaches();
+  void offers_the_selected_faults();
   void a_cancelled_run_leaves_no_run();
   void refuses_a_project_without_faults();
   void compares_two_runs_on_different_meshes();
@@ -86,6 +87,38 @@ void RunDialogTest::runs_as_a_job_and_attaches() {
   failing.findChild<QLineEdit*>(QStringLiteral("file"))->setText(QStringLiteral("/nowhere/at/all.csv"));
   failing.export_chosen();
   QTRY_VERIFY_WITH_TIMEOUT(failing.message().contains(QLatin1String("/nowhere/at")), 60'000);
+}
+
+void RunDialogTest::offers_the_selected_faults() {
+  const SampleProject sample;
+  Workbench workbench(sample.open(), {});
+  const auto& faults = workbench.document.faults();
+  const std::vector<Id> chosen{faults[0].record.id, faults[2].record.id};
+  {
+    const RunDialog dialog(workbench);
+    QVERIFY(dialog.options().faults.empty());
+    QCOMPARE(dialog.findChild<QComboBox*>(QStringLiteral("fault"))->count(),
+             static_cast<int>(faults.size()) + 1);
+  }
+  workbench.selection.select_all({chosen[0], chosen[1]}, {}, {});
+  RunDialog dialog(workbench);
+  auto* box = dialog.findChild<QComboBox*>(QStringLiteral("fault"));
+  QCOMPARE(box->currentText(), QStringLiteral("selected (2)"));
+  QCOMPARE(dialog.options().faults, chosen);
+  box->setCurrentIndex(0);
+  QVERIFY(dialog.options().faults.empty() && dialog.options().fault.empty());
+  box->setCurrentIndex(1);
+  dialog.findChild<QSpinBox*>(QStringLiteral("ranks"))->setValue(1);
+  QSignalSpy ended(&workbench.jobs, &Jobs::finished);
+  QTest::mouseClick(dialog.findChild<QPushButton*>(QStringLiteral("run")), Qt::LeftButton);
+  QVERIFY(ended.wait(60'000));
+  QVERIFY2(ended[0][1].value<Jobs::State>() == Jobs::State::kDone, qPrintable(ended[0][2].toString()));
+  const project::Project& project = workbench.document.project();
+  QCOMPARE(project.run_faults(project.runs().front().id), chosen);
+  QCOMPARE(workbench.jobs.index(0).data().toString(), QStringLiteral("Statistics of 2 faults"));
+  tasks::ExtractOptions gone;
+  gone.faults = {chosen[0], 123456};
+  QVERIFY_EXCEPTION_THROWN(start_run(workbench, gone), Error);
 }
 
 void RunDialogTest::a_cancelled_run_leaves_no_run() {
