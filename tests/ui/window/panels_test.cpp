@@ -4,6 +4,7 @@
 #include <QSignalSpy>
 #include <QTest>
 #include <QToolButton>
+#include <algorithm>
 #include <cmath>
 
 #include "ui/model/tour.h"
@@ -14,6 +15,17 @@
 #include "ui/test_class.h"
 
 namespace footwall::ui {
+namespace {
+
+// Whether a label that can be seen has the text in it.
+bool says(const QWidget& panel, const QString& text) {
+  for (const QLabel* label : panel.findChildren<QLabel*>()) {
+    if (label->isVisible() && label->text().contains(text)) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 class PanelsTest final : public QObject {
   Q_OBJECT
@@ -23,6 +35,8 @@ class PanelsTest final : public QObject {
   void handles_choose_the_range();
   void time_left_is_told_in_words();
   void a_job_is_shown_and_cancelled();
+  void a_click_shows_the_log_of_a_job();
+  void what_has_ended_is_cleared();
   void area_and_dip_of_a_known_plane();
   void the_tour_goes_from_the_lowest_contrast_up();
   void the_tour_of_offsets_goes_from_the_farthest_down();
@@ -74,17 +88,60 @@ void PanelsTest::a_job_is_shown_and_cancelled() {
   jobs.start(QStringLiteral("Statistics of F2"), [](const JobContext& job) {
     for (;;) job.report(0.5, "exchange", "3 of 6 voxels");
   });
-  const auto says = [&panel](const QString& text) {
-    for (const QLabel* label : panel.findChildren<QLabel*>()) {
-      if (label->isVisible() && label->text().contains(text)) return true;
-    }
-    return false;
-  };
-  QTRY_VERIFY(says(QStringLiteral("exchange, 3 of 6 voxels")));
-  QVERIFY(says(QStringLiteral("Statistics of F2")));
-  QTest::mouseClick(panel.findChild<QToolButton*>(), Qt::LeftButton);
-  QTRY_VERIFY(says(QStringLiteral("cancelled")));
+  QTRY_VERIFY(says(panel, QStringLiteral("exchange, 3 of 6 voxels")));
+  QVERIFY(says(panel, QStringLiteral("Statistics of F2")));
+  QTest::mouseClick(panel.findChild<QToolButton*>(QStringLiteral("cancel")), Qt::LeftButton);
+  QTRY_VERIFY(says(panel, QStringLiteral("cancelled")));
   QCOMPARE(jobs.running(), 0);
+}
+
+void PanelsTest::a_click_shows_the_log_of_a_job() {
+  Jobs jobs;
+  JobsPanel panel({&jobs});
+  panel.resize(600, 200);
+  panel.show();
+  jobs.start(QStringLiteral("first"), [](const JobContext& job) {
+    job.report(0.2, "reading headers", "");
+    throw Error(ErrorCode::kInvalid, "it was to fail", "do something else");
+  });
+  QTRY_COMPARE(jobs.running(), 0);
+  auto* log = panel.findChild<QLabel*>(QStringLiteral("log"));
+  QVERIFY(!log->isVisible());
+  QTest::mouseClick(log->parentWidget(), Qt::LeftButton, {}, {40, 6});
+  QVERIFY(log->isVisible());
+  QCOMPARE(log->text(), QStringLiteral("reading headers\nit was to fail\ndo something else"));
+  // It stays open when another job comes, which makes the rows anew; Enter puts it away.
+  jobs.start(QStringLiteral("second"), [](const JobContext&) {});
+  QTRY_COMPARE(jobs.running(), 0);
+  const auto logs = panel.findChildren<QLabel*>(QStringLiteral("log"));
+  QCOMPARE(logs.size(), 2);
+  const auto open = std::ranges::find_if(logs, &QLabel::isVisible);
+  QVERIFY(open != logs.end() && (*open)->text().startsWith(QStringLiteral("reading headers")));
+  QTest::keyClick((*open)->parentWidget(), Qt::Key_Return);
+  QVERIFY(!(*open)->isVisible());
+}
+
+void PanelsTest::what_has_ended_is_cleared() {
+  Jobs jobs, others;
+  JobsPanel panel({&jobs, &others});
+  panel.resize(600, 200);
+  panel.show();
+  const auto* clear = panel.findChild<QToolButton*>(QStringLiteral("clear"));
+  QVERIFY(!clear->isVisible());
+  jobs.start(QStringLiteral("ended"), [](const JobContext&) {});
+  others.start(QStringLiteral("ended elsewhere"), [](const JobContext&) {});
+  QTRY_COMPARE(jobs.running() + others.running(), 0);
+  const int last = jobs.start(QStringLiteral("still at it"), [](const JobContext& job) {
+    for (;;) job.report(0.5, "", "");
+  });
+  QVERIFY(clear->isVisible());
+  QTest::mouseClick(const_cast<QToolButton*>(clear), Qt::LeftButton);
+  QCOMPARE(jobs.rowCount(), 1);
+  QCOMPARE(others.rowCount(), 0);
+  QTRY_VERIFY(says(panel, QStringLiteral("still at it")));
+  QVERIFY(!clear->isVisible());
+  jobs.cancel(last);
+  QTRY_VERIFY(clear->isVisible());
 }
 
 void PanelsTest::area_and_dip_of_a_known_plane() {
