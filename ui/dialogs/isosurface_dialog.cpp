@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "storage/volume/volume_reader.h"
-
 namespace footwall::ui {
 namespace {
 
@@ -80,6 +78,9 @@ IsosurfaceDialog::IsosurfaceDialog(Workbench& workbench, Id isosurface, QWidget*
   column->addWidget(histogram_, 1);
   column->addLayout(form);
   column->addLayout(buttons);
+  connect(&looker_, &VolumeLooker::looked, this,
+          [this](const volume::VolumeInfo& info) { histogram_read(info.statistics); });
+  connect(&looker_, &VolumeLooker::failed, message_, &QLabel::setText);
   connect(volume_, &QComboBox::currentIndexChanged, this, &IsosurfaceDialog::read_histogram);
   connect(histogram_, &ValueHistogram::value_moved, this, &IsosurfaceDialog::set_value);
   connect(value_, &QDoubleSpinBox::valueChanged, this, &IsosurfaceDialog::set_value);
@@ -89,10 +90,6 @@ IsosurfaceDialog::IsosurfaceDialog(Workbench& workbench, Id isosurface, QWidget*
   connect(cancel, &QPushButton::clicked, this, &IsosurfaceDialog::reject);
   show_colour();
   read_histogram();
-}
-
-IsosurfaceDialog::~IsosurfaceDialog() {
-  for (std::thread& thread : threads_) thread.join();
 }
 
 const IsosurfaceLook* IsosurfaceDialog::look() const {
@@ -107,31 +104,15 @@ void IsosurfaceDialog::read_histogram() {
   const auto& volumes = workbench_.document.volumes();
   const auto volume = std::ranges::find(volumes, id, &project::VolumeRecord::id);
   if (volume == volumes.end()) {
+    looker_.forget();
     message_->setText(tr("import a volume first"));
     return;
   }
   message_->clear();
-  const int request = ++request_;
-  threads_.emplace_back([this, request, path = workbench_.document.project().volume_path(*volume)] {
-    try {
-      const volume::Statistics statistics = volume::VolumeReader(path).info().statistics;
-      QMetaObject::invokeMethod(
-          this, [this, request, statistics] { histogram_read(request, statistics); }, Qt::QueuedConnection);
-    } catch (const std::exception& error) {
-      QMetaObject::invokeMethod(
-          this,
-          [this, request, message = QString::fromUtf8(error.what())] { histogram_failed(request, message); },
-          Qt::QueuedConnection);
-    }
-  });
+  looker_.look(workbench_.document.project().volume_path(*volume));
 }
 
-void IsosurfaceDialog::histogram_failed(int request, const QString& message) {
-  if (request == request_) message_->setText(message);
-}
-
-void IsosurfaceDialog::histogram_read(int request, const volume::Statistics& statistics) {
-  if (request != request_) return;
+void IsosurfaceDialog::histogram_read(const volume::Statistics& statistics) {
   histogram_->show_histogram(statistics.histogram);
   const QSignalBlocker block(value_);
   const double range = statistics.max - statistics.min;
@@ -208,7 +189,7 @@ void IsosurfaceDialog::reject() {
     workbench_.display.remove_isosurface(isosurface_);
   }
   isosurface_ = before_ ? before_->id : 0;
-  ++request_;  // a histogram that still comes makes nothing
+  looker_.forget();  // a histogram that still comes makes nothing
   QDialog::reject();
 }
 

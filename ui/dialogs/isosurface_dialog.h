@@ -7,10 +7,9 @@
 #include <QLabel>
 #include <QPushButton>
 #include <optional>
-#include <thread>
-#include <vector>
 
 #include "ui/dialogs/value_histogram.h"
+#include "ui/model/volume_looker.h"
 #include "ui/model/workbench.h"
 
 namespace footwall::ui {
@@ -21,8 +20,6 @@ class IsosurfaceDialog final : public QDialog {
  public:
   // isosurface: of Display; 0: a new one of the volume shown, made as soon as its histogram is known.
   IsosurfaceDialog(Workbench& workbench, Id isosurface, QWidget* parent = nullptr);
-  // Waits for a histogram that is being read.
-  ~IsosurfaceDialog() override;
 
   // The one that is shown; 0 until it is made.
   Id isosurface() const { return isosurface_; }
@@ -33,8 +30,7 @@ class IsosurfaceDialog final : public QDialog {
  private:
   const IsosurfaceLook* look() const;
   void read_histogram();
-  void histogram_read(int request, const volume::Statistics& statistics);
-  void histogram_failed(int request, const QString& message);
+  void histogram_read(const volume::Statistics& statistics);
   void set_value(double value);
   void choose_colour();
   void set_as_picture(bool as_picture);
@@ -43,8 +39,7 @@ class IsosurfaceDialog final : public QDialog {
   Workbench& workbench_;
   Id isosurface_;
   std::optional<IsosurfaceLook> before_;
-  int request_ = 0;
-  std::vector<std::thread> threads_;
+  VolumeLooker looker_;
   QComboBox *volume_, *shown_as_;
   ValueHistogram* histogram_;
   QDoubleSpinBox* value_;

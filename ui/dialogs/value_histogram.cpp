@@ -4,7 +4,9 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <algorithm>
-#include <cmath>
+#include <vector>
+
+#include "ui/model/volume_spread.h"
 
 namespace footwall::ui {
 namespace {
@@ -12,17 +14,6 @@ namespace {
 constexpr int kFoot = 20;  // room for the numbers
 
 }  // namespace
-
-std::vector<double> bar_heights(const volume::Histogram& histogram, int bars) {
-  std::vector<double> heights(static_cast<std::size_t>(bars));
-  for (int n = 0; n < volume::Histogram::kBins; ++n) {
-    heights[static_cast<std::size_t>(n * bars / volume::Histogram::kBins)] +=
-        static_cast<double>(histogram.counts[static_cast<std::size_t>(n)]);
-  }
-  const double most = *std::max_element(heights.begin(), heights.end());
-  for (double& height : heights) height = most > 0 ? std::sqrt(height / most) : 0;
-  return heights;
-}
 
 ValueHistogram::ValueHistogram(QWidget* parent) : QWidget(parent) {
   setFocusPolicy(Qt::StrongFocus);

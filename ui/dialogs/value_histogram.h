@@ -1,14 +1,10 @@
 // How a volume's samples are spread, with a mark at the value of an isosurface that can be dragged.
 #pragma once
 #include <QWidget>
-#include <vector>
 
 #include "storage/volume/volume_info.h"
 
 namespace footwall::ui {
-
-// Heights 0 to 1 of `bars` bars; the square root of the counts, so that rare values are seen, too.
-std::vector<double> bar_heights(const volume::Histogram& histogram, int bars);
 
 class ValueHistogram final : public QWidget {
   Q_OBJECT

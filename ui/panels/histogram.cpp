@@ -5,6 +5,8 @@
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 namespace footwall::ui {
 namespace {
@@ -44,12 +46,28 @@ void Histogram::show_values(const std::vector<double>& values,
   } else {
     from_ = from;
     to_ = to > from ? to : from + 1;
-    bins_ = bins_of(values, from_, to_, kBins);
+    const std::vector<int> counts = bins_of(values, from_, to_, kBins);
+    bins_.assign(counts.begin(), counts.end());
   }
   if (!dragging_) {
     low_ = range ? range->first : from_;
     high_ = range ? range->second : to_;
   }
+  update();
+}
+
+void Histogram::show_bars(std::vector<double> heights, double from, double to,
+                          std::pair<double, double> range) {
+  from_ = from;
+  to_ = to > from ? to : from + 1;
+  bins_ = std::move(heights);
+  if (!dragging_) std::tie(low_, high_) = range;
+  update();
+}
+
+void Histogram::set_range(double low, double high) {
+  low_ = low;
+  high_ = high;
   update();
 }
 
@@ -70,12 +88,13 @@ void Histogram::paintEvent(QPaintEvent*) {
     return;
   }
   const int bottom = height() - kLabelHeight;
-  const int most = std::max(1, *std::ranges::max_element(bins_));
-  const double step = static_cast<double>(width() - 2 * kMargin) / kBins;
+  const double most = *std::ranges::max_element(bins_);
+  const auto count = static_cast<int>(bins_.size());
+  const double step = static_cast<double>(width() - 2 * kMargin) / count;
   const QColor inside = palette().color(QPalette::Highlight);
-  for (int n = 0; n < kBins; ++n) {
-    const double centre = from_ + (n + 0.5) * (to_ - from_) / kBins;
-    const double tall = static_cast<double>(bins_[static_cast<std::size_t>(n)]) / most * (bottom - 4);
+  for (int n = 0; n < count; ++n) {
+    const double centre = from_ + (n + 0.5) * (to_ - from_) / count;
+    const double tall = most > 0 ? bins_[static_cast<std::size_t>(n)] / most * (bottom - 4) : 0;
     painter.fillRect(QRectF(kMargin + n * step, bottom - tall, std::max(1.0, step - 1.5), tall),
                      centre >= low_ && centre <= high_ ? inside : palette().color(QPalette::Mid));
   }

@@ -1,5 +1,5 @@
-// How the shown statistic is spread over a fault's faces, with handles for the range that the colours run
-// over.
+// How values are spread, those of a fault's faces or a volume's samples, with handles for the range that the
+// colours run over.
 #pragma once
 #include <QWidget>
 #include <optional>
@@ -19,6 +19,10 @@ class Histogram final : public QWidget {
 
   // range: the one that colours run over now.
   void show_values(const std::vector<double>& values, std::optional<std::pair<double, double>> range);
+  // The same of values that were counted already: heights of equal bins between from and to.
+  void show_bars(std::vector<double> heights, double from, double to, std::pair<double, double> range);
+  // Where the colours begin and end, also while a handle is dragged.
+  void set_range(double low, double high);
   bool is_empty() const { return bins_.empty(); }
   std::pair<double, double> range() const { return {low_, high_}; }
 
@@ -42,7 +46,7 @@ class Histogram final : public QWidget {
   double value_at(double x) const;
   void move_handle(double value);
 
-  std::vector<int> bins_;
+  std::vector<double> bins_;
   double from_ = 0, to_ = 1;   // of the axis
   double low_ = 0, high_ = 1;  // of the colours
   int handle_ = 0;             // the one dragged, or moved last: 0 low, 1 high

@@ -10,7 +10,10 @@
 #include <cmath>
 #include <utility>
 
+#include "ui/panels/fault_fields.h"
 #include "ui/panels/histogram.h"
+#include "ui/panels/selection_summary.h"
+#include "ui/panels/volume_box.h"
 
 namespace footwall::ui {
 namespace {
@@ -75,6 +78,10 @@ InspectorPanel::InspectorPanel(Workbench& workbench, FindAction action, QWidget*
   column->addWidget(title_);
   rows_ = new QWidget(body_);
   column->addWidget(rows_);
+  fields_ = new FaultFields(workbench_.document, body_);
+  column->addWidget(fields_);
+  volume_ = new VolumeBox(workbench_, body_);
+  column->addWidget(volume_);
 
   of_fault_ = new QWidget(body_);
   auto* fault = new QVBoxLayout(of_fault_);
@@ -104,6 +111,7 @@ InspectorPanel::InspectorPanel(Workbench& workbench, FindAction action, QWidget*
   connect(timer_, &QTimer::timeout, this, &InspectorPanel::refresh);
   connect(&workbench_.selection, &Selection::changed, this, &InspectorPanel::refresh);
   connect(&workbench_.display, &Display::faces_changed, this, &InspectorPanel::refresh_statistic);
+  connect(&workbench_.display, &Display::isosurfaces_changed, this, &InspectorPanel::soon);
   connect(&workbench_.document, &Document::faults_changed, this, &InspectorPanel::soon);
   connect(&workbench_.document, &Document::shapes_changed, this, &InspectorPanel::soon);
   connect(&workbench_.document, &Document::volumes_changed, this, &InspectorPanel::soon);
@@ -135,55 +143,54 @@ void InspectorPanel::soon() {
 }
 
 Id InspectorPanel::shown_fault() const {
-  const Item& item = workbench_.selection.current();
-  switch (item.kind) {
-    case Item::Kind::kFault:
-    case Item::Kind::kFace:
-      return item.id;
-    case Item::Kind::kPillar:
-    case Item::Kind::kNode:
-      return workbench_.selection.active_fault();
-    default:
-      return 0;
-  }
+  const Item owner = workbench_.selection.owner();
+  return owner.kind == Item::Kind::kFault ? owner.id : 0;
 }
 
 void InspectorPanel::refresh() {
-  Properties now = properties_of(workbench_.selection.current(), workbench_);
-  const std::size_t several = workbench_.selection.faults().size();
-  if (several > 1) now = {tr("%1 faults").arg(several), {}};
+  Properties now = selected_properties(workbench_);
   if (now.title.isEmpty())
     now = {tr("Nothing selected"), {{tr("Click a fault, in the list or in a view."), QString()}}};
   if (now.title != shown_.title || now.rows != shown_.rows) {
     shown_ = std::move(now);
-    title_->setText(shown_.title.toUpper());
-    delete rows_->layout();
-    qDeleteAll(rows_->findChildren<QWidget*>(Qt::FindDirectChildrenOnly));
-    auto* grid = new QGridLayout(rows_);
-    grid->setContentsMargins(0, 0, 0, 0);
-    grid->setVerticalSpacing(6);
-    grid->setHorizontalSpacing(12);
-    grid->setColumnStretch(1, 1);
-    int line = 0;
-    for (const auto& [name, value] : shown_.rows) {
-      auto* left = new QLabel(name, rows_);
-      left->setForegroundRole(QPalette::PlaceholderText);
-      if (value.isEmpty()) {
-        left->setWordWrap(true);
-        grid->addWidget(left, line++, 0, 1, 2);
-        continue;
-      }
-      auto* right = new QLabel(value, rows_);
-      right->setTextFormat(Qt::PlainText);
-      right->setWordWrap(true);
-      right->setTextInteractionFlags(Qt::TextSelectableByMouse);
-      grid->addWidget(left, line, 0, Qt::AlignTop);
-      grid->addWidget(right, line++, 1, Qt::AlignTop);
-    }
+    show_rows();
   }
+  const Item& current = workbench_.selection.current();
+  const bool is_fault = current.kind == Item::Kind::kFault && shown_fault() == current.id;
+  fields_->show_fault(is_fault ? current.id : 0);
+  fields_->setVisible(is_fault);
+  volume_->show_volume(current.kind == Item::Kind::kVolume ? current.id : 0);
+  volume_->setVisible(current.kind == Item::Kind::kVolume);
   of_fault_->setVisible(shown_fault() != 0);
   refresh_statistic();
   refresh_detail();
+}
+
+void InspectorPanel::show_rows() {
+  title_->setText(shown_.title.toUpper());
+  delete rows_->layout();
+  qDeleteAll(rows_->findChildren<QWidget*>(Qt::FindDirectChildrenOnly));
+  auto* grid = new QGridLayout(rows_);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setVerticalSpacing(6);
+  grid->setHorizontalSpacing(12);
+  grid->setColumnStretch(1, 1);
+  int line = 0;
+  for (const auto& [name, value] : shown_.rows) {
+    auto* left = new QLabel(name, rows_);
+    left->setForegroundRole(QPalette::PlaceholderText);
+    if (value.isEmpty()) {
+      left->setWordWrap(true);
+      grid->addWidget(left, line++, 0, 1, 2);
+      continue;
+    }
+    auto* right = new QLabel(value, rows_);
+    right->setTextFormat(Qt::PlainText);
+    right->setWordWrap(true);
+    right->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    grid->addWidget(left, line, 0, Qt::AlignTop);
+    grid->addWidget(right, line++, 1, Qt::AlignTop);
+  }
 }
 
 void InspectorPanel::refresh_statistic() {

@@ -1,5 +1,5 @@
-// What is selected: its properties, the spread of the shown statistic, how fine its triangles are, and what
-// can be done.
+// What is selected: its properties, the spread of the shown statistic or of a volume's values, how fine its
+// triangles are, and what can be done.
 #pragma once
 #include <QScrollArea>
 #include <functional>
@@ -16,7 +16,9 @@ class QTimer;
 
 namespace footwall::ui {
 
+class FaultFields;
 class Histogram;
+class VolumeBox;
 
 class InspectorPanel final : public QScrollArea {
   Q_OBJECT
@@ -26,9 +28,12 @@ class InspectorPanel final : public QScrollArea {
 
   const Properties& shown() const { return shown_; }
   Histogram& histogram() { return *histogram_; }
+  FaultFields& fields() { return *fields_; }
+  VolumeBox& volume() { return *volume_; }
 
  private:
   void refresh();
+  void show_rows();
   void refresh_statistic();
   void refresh_detail();
   void set_detail();
@@ -40,6 +45,8 @@ class InspectorPanel final : public QScrollArea {
   QWidget* body_ = nullptr;
   QLabel* title_ = nullptr;
   QWidget* rows_ = nullptr;
+  FaultFields* fields_ = nullptr;
+  VolumeBox* volume_ = nullptr;
   QWidget* of_fault_ = nullptr;
   QLabel* statistic_ = nullptr;
   Histogram* histogram_ = nullptr;

@@ -73,13 +73,8 @@ void add_fault(const Fault& fault, const Workbench& bench, Properties& to) {
   }
   const QString problem = bench.surfaces.problem(record.id);
   if (!problem.isEmpty()) to.rows.emplace_back(tr("surface"), problem);
-  const QString by = QString::fromStdString(record.interpreter);
-  to.rows.emplace_back(tr("interpreter"), by.isEmpty() ? QStringLiteral("–") : by);
   to.rows.emplace_back(tr("modified"), time_text(record.modified));
-  to.rows.emplace_back(tr("status"), record.locked
-                                         ? tr("%1, locked").arg(QString::fromStdString(record.status))
-                                         : QString::fromStdString(record.status));
-  if (!record.note.empty()) to.rows.emplace_back(tr("note"), QString::fromStdString(record.note));
+  if (record.locked) to.rows.emplace_back(tr("locked"), tr("cannot be edited"));
 }
 
 void add_pillar(const survey::Pillar& pillar, const Fault* fault, Properties& to) {
@@ -145,7 +140,7 @@ void add_face(const Item& face, const Workbench& bench, Properties& to) {
   }
 }
 
-void add_volume(const project::VolumeRecord& volume, Properties& to) {
+void add_volume(const project::VolumeRecord& volume, const project::Project& project, Properties& to) {
   to.title = tr("Volume %1").arg(QString::fromStdString(volume.name));
   to.rows.emplace_back(tr("size"),
                        tr("%1 × %2 × %3").arg(volume.dims[0]).arg(volume.dims[1]).arg(volume.dims[2]));
@@ -156,7 +151,23 @@ void add_volume(const project::VolumeRecord& volume, Properties& to) {
   to.rows.emplace_back(tr("live traces"), number(volume.live_traces));
   to.rows.emplace_back(tr("on disk"), QLocale(QLocale::English).formattedDataSize(volume.bytes));
   to.rows.emplace_back(tr("source"), QString::fromStdString(volume.source));
+  to.rows.emplace_back(tr("file"), QString::fromStdString(project.volume_path(volume).string()));
   to.rows.emplace_back(tr("checksum"), QString::fromStdString(volume.checksum));
+}
+
+void add_isosurface(const IsosurfaceLook& look, const Document& document, Properties& to) {
+  to.title = look.name.isEmpty() ? tr("Isosurface") : tr("Isosurface %1").arg(look.name);
+  const auto& volumes = document.volumes();
+  const auto volume = std::ranges::find(volumes, look.volume, &project::VolumeRecord::id);
+  const bool is_there = volume != volumes.end();
+  to.rows.emplace_back(tr("volume"), is_there ? QString::fromStdString(volume->name) : tr("no volume"));
+  QString value = short_number(look.value);
+  if (is_there && volume->role != "other") value += QLatin1Char(' ') + QString::fromStdString(volume->role);
+  to.rows.emplace_back(tr("value"), value);
+  to.rows.emplace_back(tr("colour"), look.colour);
+  to.rows.emplace_back(tr("shown as"),
+                       look.as_picture ? tr("picture by the engine") : tr("mesh of triangles"));
+  if (!look.visible) to.rows.emplace_back(tr("hidden"), tr("its ring in the project panel shows it"));
 }
 
 void add_survey(const Workbench& bench, Properties& to) {
@@ -254,7 +265,7 @@ Properties properties_of(const Item& item, const Workbench& bench) {
       case Item::Kind::kVolume: {
         const auto& volumes = bench.document.volumes();
         const auto volume = std::ranges::find(volumes, item.id, &project::VolumeRecord::id);
-        if (volume != volumes.end()) add_volume(*volume, found);
+        if (volume != volumes.end()) add_volume(*volume, bench.document.project(), found);
         break;
       }
       case Item::Kind::kSurvey:
@@ -270,7 +281,12 @@ Properties properties_of(const Item& item, const Workbench& bench) {
         found.rows.emplace_back(tr("made"), time_text(view.when));
         break;
       }
-      case Item::Kind::kIsosurface:
+      case Item::Kind::kIsosurface: {
+        const auto& all = bench.display.isosurfaces();
+        const auto look = std::ranges::find(all, item.id, &IsosurfaceLook::id);
+        if (look != all.end()) add_isosurface(*look, bench.document, found);
+        break;
+      }
       case Item::Kind::kSection:
       case Item::Kind::kNone:
         break;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "ui/dialogs/look.h"
+#include "ui/model/volume_spread.h"
 #include "ui/sample_project.h"
 #include "ui/test_class.h"
 

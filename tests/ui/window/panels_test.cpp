@@ -1,5 +1,8 @@
 #include <QAbstractItemModelTester>
+#include <QApplication>
 #include <QLabel>
+#include <QLineEdit>
+#include <QPlainTextEdit>
 #include <QSemaphore>
 #include <QSignalSpy>
 #include <QTest>
@@ -7,15 +10,31 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/model/fault_commands.h"
 #include "ui/model/tour.h"
+#include "ui/model/volume_spread.h"
+#include "ui/model/workbench.h"
+#include "ui/panels/fault_fields.h"
 #include "ui/panels/histogram.h"
+#include "ui/panels/inspector_panel.h"
 #include "ui/panels/jobs_panel.h"
 #include "ui/panels/properties.h"
+#include "ui/panels/volume_box.h"
 #include "ui/sample_project.h"
 #include "ui/test_class.h"
 
 namespace footwall::ui {
 namespace {
+
+QAction* no_action(const QString&) {
+  return nullptr;
+}
+
+std::set<Id> pillars_of(const Fault& fault) {
+  std::set<Id> pillars;
+  for (const survey::Pillar& pillar : fault.pillars) pillars.insert(pillar.id);
+  return pillars;
+}
 
 // Whether a label that can be seen has the text in it.
 bool says(const QWidget& panel, const QString& text) {
@@ -37,6 +56,14 @@ class PanelsTest final : public QObject {
   void a_job_is_shown_and_cancelled();
   void a_click_shows_the_log_of_a_job();
   void what_has_ended_is_cleared();
+  void several_things_are_counted();
+  void what_is_taken_away_is_not_inspected();
+  void an_isosurface_is_told();
+  void a_clip_belongs_to_a_range();
+  void handles_set_the_clip_of_the_sections();
+  void a_volume_without_its_file_is_told();
+  void fields_of_a_fault_are_one_edit_each();
+  void fields_of_a_locked_fault_are_fixed();
   void area_and_dip_of_a_known_plane();
   void the_tour_goes_from_the_lowest_contrast_up();
   void the_tour_of_offsets_goes_from_the_farthest_down();
@@ -142,6 +169,188 @@ void PanelsTest::what_has_ended_is_cleared() {
   QVERIFY(!clear->isVisible());
   jobs.cancel(last);
   QTRY_VERIFY(clear->isVisible());
+}
+
+void PanelsTest::several_things_are_counted() {
+  const SampleProject sample;
+  Workbench bench(sample.open(), {});
+  const InspectorPanel inspector(bench, no_action);
+  const Fault& first = bench.document.faults()[0];
+  const Fault& second = bench.document.faults()[1];
+  const QString name = QString::fromStdString(first.record.name);
+  const std::set<Id> pillars = pillars_of(first);
+  bench.selection.select_all({}, pillars, {});
+  QCOMPARE(inspector.shown().title, QStringLiteral("%1 pillars of %2").arg(pillars.size()).arg(name));
+  const Id node = second.pillars[0].nodes[0].id;
+  bench.selection.select_all({}, {}, {first.pillars[0].nodes[0].id, first.pillars[0].nodes[1].id, node});
+  QCOMPARE(inspector.shown().title, QStringLiteral("3 nodes of 2 faults"));
+  QCOMPARE(inspector.shown().rows.front(), (std::pair{name, QStringLiteral("2 nodes")}));
+  bench.selection.select_all({}, {second.pillars[1].id}, {node}, true);
+  QCOMPARE(inspector.shown().title, QStringLiteral("1 pillar, 3 nodes of 2 faults"));
+  bench.selection.select_all({first.record.id, second.record.id}, {}, {});
+  QCOMPARE(inspector.shown().title, QStringLiteral("2 faults"));
+  QCOMPARE(inspector.shown().rows.front(),
+           (std::pair{name, QStringLiteral("all of %1 pillars").arg(first.pillars.size())}));
+}
+
+void PanelsTest::what_is_taken_away_is_not_inspected() {
+  const SampleProject sample;
+  Workbench bench(sample.open(), {});
+  const Fault& fault = bench.document.faults().front();
+  const Item first{.kind = Item::Kind::kPillar, .id = fault.pillars[0].id};
+  const Item second{.kind = Item::Kind::kPillar, .id = fault.pillars[1].id};
+  bench.selection.select(first);
+  bench.selection.select(second, true);
+  QVERIFY(bench.selection.current() == second);
+  bench.selection.select(second, true);
+  QVERIFY(bench.selection.current() == first);
+  bench.selection.select(first, true);
+  QVERIFY(!bench.selection.current());
+}
+
+void PanelsTest::an_isosurface_is_told() {
+  const SampleProject sample;
+  Workbench bench(sample.open(), {});
+  const InspectorPanel inspector(bench, no_action);
+  const Id id = bench.display.add_isosurface(bench.display.volume(), 0.25);
+  bench.selection.select({.kind = Item::Kind::kIsosurface, .id = id});
+  QCOMPARE(inspector.shown().title, QStringLiteral("Isosurface"));
+  const auto row = [&](const QString& name) {
+    for (const auto& [left, right] : inspector.shown().rows) {
+      if (left == name) return right;
+    }
+    return QString();
+  };
+  QCOMPARE(row(QStringLiteral("volume")), QStringLiteral("amplitude"));
+  QCOMPARE(row(QStringLiteral("value")), QStringLiteral("0.25 amplitude"));
+  QCOMPARE(row(QStringLiteral("shown as")), QStringLiteral("picture by the engine"));
+  IsosurfaceLook look = bench.display.isosurfaces().front();
+  look.as_picture = false;
+  look.value = -0.5;
+  look.colour = QStringLiteral("#102030");
+  bench.display.change_isosurface(look);
+  QTRY_COMPARE(row(QStringLiteral("shown as")), QStringLiteral("mesh of triangles"));
+  QCOMPARE(row(QStringLiteral("value")), QStringLiteral("-0.5 amplitude"));
+  QCOMPARE(row(QStringLiteral("colour")), QStringLiteral("#102030"));
+}
+
+void PanelsTest::a_clip_belongs_to_a_range() {
+  SectionReader::VolumeFacts facts{.signed_values = false, .percentiles = {}, .max_abs = 1};
+  for (int p = 0; p <= 100; ++p) facts.percentiles.push_back(p / 100.0);
+  SampleLook look;
+  look.gain = 3;
+  look.colour_map = QStringLiteral("viridis");
+  QCOMPARE(clipped_at(look, facts, 0.905, false).clip_percentile, 90.5);
+  QCOMPARE(clipped_at(look, facts, 0.08, true).clip_percentile, 92.0);
+  QCOMPARE(clipped_at(look, facts, 2, false).clip_percentile, 100.0);
+  QCOMPARE(clipped_at(look, facts, 0.6, true).clip_percentile, 75.0);  // no further than that
+  QCOMPARE(clipped_at(look, facts, 0.9, false).gain, 1.0);
+  QCOMPARE(clipped_at(look, facts, 0.9, false).colour_map, look.colour_map);
+  facts.signed_values = true;
+  QCOMPARE(clipped_at(look, facts, -0.95, true).clip_percentile, 95.0);
+}
+
+void PanelsTest::handles_set_the_clip_of_the_sections() {
+  const SampleProject sample;
+  Workbench bench(sample.open(), {});
+  InspectorPanel inspector(bench, no_action);
+  inspector.resize(300, 700);
+  inspector.show();
+  bench.selection.select({.kind = Item::Kind::kVolume, .id = bench.display.volume()});
+  Histogram& histogram = inspector.volume().histogram();
+  QTRY_VERIFY_WITH_TIMEOUT(!histogram.is_empty(), 30'000);
+  QVERIFY(inspector.volume().state().contains(QStringLiteral("checksum that the project knows")));
+  const auto [low, high] = histogram.range();
+  QVERIFY(high > 0 && low == -high);  // a volume of both signs
+  // The right handle is moved inwards by the keys: fewer samples are within, at both ends.
+  QTest::keyClick(&histogram, Qt::Key_Down);
+  for (int n = 0; n < 3; ++n) QTest::keyClick(&histogram, Qt::Key_Left);
+  const double clip = bench.display.samples().clip_percentile;
+  QVERIFY(clip < 99 && clip >= 75);
+  QVERIFY(histogram.range().second < high);
+  QCOMPARE(histogram.range().first, -histogram.range().second);
+  // Where the sections' colours say so, the handles follow.
+  SampleLook look = bench.display.samples();
+  look.gain = 2;
+  const double before = histogram.range().second;
+  bench.display.set_samples(look);
+  QCOMPARE(histogram.range().second, before / 2);
+  QTest::mouseDClick(&histogram, Qt::LeftButton, {}, histogram.rect().center());
+  QCOMPARE(bench.display.samples().clip_percentile, 99.0);
+  QCOMPARE(bench.display.samples().gain, 1.0);
+  QCOMPARE(histogram.range().second, high);
+}
+
+void PanelsTest::a_volume_without_its_file_is_told() {
+  const SampleProject sample;
+  Workbench bench(sample.open(), {});
+  InspectorPanel inspector(bench, no_action);
+  inspector.show();
+  const project::VolumeRecord volume = bench.document.volumes().front();
+  const std::filesystem::path file = bench.document.project().volume_path(volume);
+  std::filesystem::rename(file, file.string() + ".away");
+  bench.selection.select({.kind = Item::Kind::kVolume, .id = volume.id});
+  QTRY_VERIFY_WITH_TIMEOUT(
+      inspector.volume().state().contains(QString::fromStdString(file.filename().string())), 30'000);
+  QVERIFY(inspector.volume().histogram().is_empty());
+  QVERIFY(inspector.shown().title.startsWith(QStringLiteral("Volume")));
+}
+
+void PanelsTest::fields_of_a_fault_are_one_edit_each() {
+  const SampleProject sample;
+  Workbench bench(sample.open(), {});
+  InspectorPanel inspector(bench, no_action);
+  inspector.resize(300, 700);
+  inspector.show();
+  QApplication::setActiveWindow(&inspector);  // there is no window manager that would
+  QTRY_VERIFY(inspector.isActiveWindow());
+  const Id fault = bench.document.faults()[0].record.id;
+  const auto record = [&] { return bench.document.fault(fault)->record; };
+  const std::size_t steps = bench.document.history().size();
+  bench.selection.select({.kind = Item::Kind::kFault, .id = fault});
+  auto* status = inspector.fields().findChild<QLineEdit*>(QStringLiteral("status"));
+  auto* interpreter = inspector.fields().findChild<QLineEdit*>(QStringLiteral("interpreter"));
+  auto* note = inspector.fields().findChild<QPlainTextEdit*>(QStringLiteral("note"));
+  QCOMPARE(status->text(), QString::fromStdString(record().status));
+  status->setFocus();
+  status->selectAll();
+  QTest::keyClicks(status, QStringLiteral("final"));
+  QTest::keyClick(status, Qt::Key_Return);
+  QCOMPARE(record().status, std::string("final"));
+  QCOMPARE(bench.document.history().size(), steps + 1);
+  // A field that is left without a change makes no step; one with a change does, also by another selection.
+  interpreter->setFocus();
+  note->setFocus();
+  QCOMPARE(bench.document.history().size(), steps + 1);
+  QTest::keyClicks(note, QStringLiteral("throws 40 m"));
+  bench.selection.select({.kind = Item::Kind::kFault, .id = bench.document.faults()[1].record.id});
+  QCOMPARE(record().note, std::string("throws 40 m"));
+  QCOMPARE(bench.document.history().size(), steps + 2);
+  QVERIFY(note->toPlainText().isEmpty());
+  bench.selection.select({.kind = Item::Kind::kFault, .id = fault});
+  QCOMPARE(note->toPlainText(), QStringLiteral("throws 40 m"));
+  // Esc puts back what was; undo shows at once what is stored.
+  interpreter->setFocus();
+  QTest::keyClicks(interpreter, QStringLiteral("nobody"));
+  QTest::keyClick(interpreter, Qt::Key_Escape);
+  QCOMPARE(interpreter->text(), QString::fromStdString(record().interpreter));
+  QVERIFY(bench.document.undo());
+  QTRY_VERIFY(note->toPlainText().isEmpty());
+  QCOMPARE(bench.document.history().size(), steps + 2);
+}
+
+void PanelsTest::fields_of_a_locked_fault_are_fixed() {
+  const SampleProject sample;
+  Workbench bench(sample.open(), {});
+  const InspectorPanel inspector(bench, no_action);
+  const Id fault = bench.document.faults()[0].record.id;
+  bench.selection.select({.kind = Item::Kind::kFault, .id = fault});
+  const auto* status = inspector.findChild<QLineEdit*>(QStringLiteral("status"));
+  QVERIFY(!status->isReadOnly());
+  QVERIFY(lock_faults(bench.document, {fault}, true));
+  QTRY_VERIFY(status->isReadOnly());
+  QVERIFY(lock_faults(bench.document, {fault}, false));
+  QTRY_VERIFY(!status->isReadOnly());
 }
 
 void PanelsTest::area_and_dip_of_a_known_plane() {
