@@ -8,6 +8,35 @@
 #include "ui/scene3d/scene_drawing.h"
 
 namespace footwall::ui {
+namespace {
+
+// The box around an isosurface, which has no outline: by its fewest triangles, which reach about as far.
+// Two of its sides run as the inlines' axis does.
+void add_box_lines(std::vector<Line>& lines, const IsosurfaceShape& shape, const render::SceneFrame& frame,
+                   const QColor& colour) {
+  using render::Vec3;
+  const Vec3 side = frame.scene_of(survey::IndexPoint{1, 0, 0}) - frame.scene_of(survey::IndexPoint{0, 0, 0});
+  const Vec3 across = side * (1 / length(side));
+  const Vec3 along{-across.y, across.x, 0};
+  Vec3 lo{INFINITY, INFINITY, INFINITY}, hi{-INFINITY, -INFINITY, -INFINITY};
+  for (const std::uint32_t corner : shape.coarse.back().corners) {
+    const Vec3 p(shape.positions[corner]);
+    const Vec3 in_box{dot(p, across), dot(p, along), p.z};
+    lo = {std::min(lo.x, in_box.x), std::min(lo.y, in_box.y), std::min(lo.z, in_box.z)};
+    hi = {std::max(hi.x, in_box.x), std::max(hi.y, in_box.y), std::max(hi.z, in_box.z)};
+  }
+  const auto corner = [&](unsigned n) {
+    return render::Vec3f(across * ((n & 1U) != 0 ? hi.x : lo.x) + along * ((n & 2U) != 0 ? hi.y : lo.y) +
+                         Vec3{0, 0, (n & 4U) != 0 ? hi.z : lo.z});
+  };
+  for (unsigned n = 0; n < 8; ++n) {
+    for (const unsigned axis : {1U, 2U, 4U}) {
+      if ((n & axis) == 0) lines.push_back({corner(n), corner(n | axis), rgba_of(colour), 1.6F});
+    }
+  }
+}
+
+}  // namespace
 
 Pass SceneDrawing::pass_now() const {
   Pass pass;
@@ -390,6 +419,10 @@ void SceneDrawing::draw_hover(const Pass& pass) {
   std::vector<Dot> dots;
   if (hovered.kind == Item::Kind::kFace || hovered.kind == Item::Kind::kFault)
     add_fault_lines(lines, hovered.id);
+  for (const IsosurfaceLook& look : shown_shapes()) {
+    if (flat_ && hovered == Item{.kind = Item::Kind::kIsosurface, .id = look.id})
+      add_box_lines(lines, *shapes_.shape(look.id), *flat_, colours_.text);
+  }
   if (hovered.kind == Item::Kind::kFace) add_face_lines(lines, hovered, Qt::white, 2.4F);
   if (hovered.kind == Item::Kind::kPillar || hovered.kind == Item::Kind::kNode) {
     const Fault* fault = hovered.kind == Item::Kind::kPillar ? workbench_.document.fault_of_pillar(hovered.id)

@@ -208,6 +208,18 @@ void IsosurfaceGeometryTest::the_scene_shows_and_picks_it() {
   }
   QVERIFY(picked > 40);
   QVERIFY2(wrong < 0.3 * picked, qPrintable(QStringLiteral("%1 of %2").arg(wrong).arg(picked)));
+  // Hovered, here or in the project panel, it has a box around it.
+  const auto light_in = [](const QImage& image) {
+    int light = 0;
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) light += image.pixelColor(x, y) == QColor(0xd6, 0xda, 0xe0);
+    }
+    return light;
+  };
+  scene.bench.selection.hover({.kind = Item::Kind::kIsosurface, .id = id});
+  QVERIFY(light_in(scene.grabbed("triangles_hovered")) > light_in(shown) + 100);
+  scene.bench.selection.hover({});
+  QCOMPARE(light_in(scene.grabbed("triangles_left")), light_in(shown));
   // Another value, another colour, hidden, and as a picture again.
   IsosurfaceLook look = scene.bench.display.isosurfaces().front();
   look.value = 0.8;
