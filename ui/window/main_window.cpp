@@ -197,6 +197,8 @@ void MainWindow::show_workbench() {
   look_stored_ = {};
   views_ = new ViewArea(*workbench_, built_views(), look["views"].toObject(), middle_);
   connect(views_, &ViewArea::active_changed, actions_, &Actions::refresh);
+  connect(views_, &ViewArea::action_asked, this,
+          [this](const QString& action) { actions_->action(action)->trigger(); });
   put_in_middle(views_);
   docks_->show_workbench(workbench_.get());
   docks_->restore(look);

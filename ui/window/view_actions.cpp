@@ -1,4 +1,5 @@
 #include <QApplication>
+#include <QInputDialog>
 #include <QKeyEvent>
 #include <algorithm>
 
@@ -67,6 +68,31 @@ void draw_line(MainWindow& window) {
     add_section<Section::Kind::kSlice>(window);
   }
   line.begin();
+}
+
+void toggle_in_scene(MainWindow& window) {
+  const Display::ShownSection* shown = shown_as(window, window.views()->active_section());
+  if (shown == nullptr) return;
+  Display::ShownSection changed = *shown;
+  changed.in_scene = !changed.in_scene;
+  display(window).change_section(changed);
+}
+
+bool is_in_scene(MainWindow& window) {
+  const Display::ShownSection* shown = shown_as(window, window.views()->active_section());
+  return shown != nullptr && shown->in_scene;
+}
+
+void set_fade_distance(MainWindow& window) {
+  constexpr double kFarthest = 10000;
+  bool ok = false;
+  const double voxels = QInputDialog::getDouble(
+      &window, QCoreApplication::translate("Actions", "Fade distance"),
+      QCoreApplication::translate("Actions",
+                                  "Pillars beside a section are drawn up to this many lines or samples "
+                                  "away, paler with distance:"),
+      display(window).fade_distance(), 0, kFarthest, 1, &ok);
+  if (ok) display(window).set_fade_distance(voxels);
 }
 
 void step(MainWindow& window, int steps) {
@@ -240,6 +266,12 @@ std::vector<ActionRow> place_actions() {
 std::vector<ActionRow> look_actions() {
   using M = Menu;
   return {
+      {"view.in-scene", M::kView, QT_TRANSLATE_NOOP("Actions", "Plane in scene"), "Ctrl+Alt+P", "plane",
+       QT_TRANSLATE_NOOP("Actions", "The active section is a plane of the scene, too"), kProject | kSection,
+       toggle_in_scene, is_in_scene},
+      {"view.fade", M::kView, QT_TRANSLATE_NOOP("Actions", "Fade distance…"), "Ctrl+Alt+F", "fade",
+       QT_TRANSLATE_NOOP("Actions", "How far beside a section pillars are drawn on it"), kProject,
+       set_fade_distance},
       look_row<ViewFactories::From::kOblique>(
           "view.from-oblique", QT_TRANSLATE_NOOP("Actions", "From &above"), "Ctrl+Shift+0",
           QT_TRANSLATE_NOOP("Actions", "The scene slantwise from above"), true),

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "ui/window/empty_views.h"
 #include "ui/window/view_tile.h"
 
 namespace footwall::ui {
@@ -48,7 +49,11 @@ ViewArea::ViewArea(Workbench& workbench, ViewFactories factories, const QJsonObj
   columns_->setHandleWidth(1);
   columns_->setChildrenCollapsible(false);
   whole->addWidget(columns_);
+  empty_ = new EmptyViews(workbench_, this);
+  connect(empty_, &EmptyViews::action_asked, this, &ViewArea::action_asked);
+  whole->addWidget(empty_);
   build(layout);
+  is_built_ = true;
   connect(&workbench_.display, &Display::sections_changed, this, &ViewArea::sync_sections);
   connect(qApp, &QApplication::focusChanged, this, [this](QWidget*, QWidget* now) { focus_moved(now); });
 }
@@ -135,12 +140,22 @@ ViewTile* ViewArea::scene() const {
 void ViewArea::show_scene(bool on) {
   if (on == has_scene()) return;
   if (on) {
-    add_column(0)->addWidget(make_tile(0));
+    const bool was_empty = tiles().empty();
+    ViewTile* tile = make_tile(0);
+    add_column(0)->addWidget(tile);
+    show_what_there_is();
+    if (was_empty) activate(tile);
     return;
   }
   for (ViewTile* tile : tiles()) {
     if (tile->section() == 0) remove(tile);
   }
+}
+
+void ViewArea::show_what_there_is() {
+  const bool empty = tiles().empty();
+  columns_->setVisible(!empty);
+  empty_->setVisible(empty);
 }
 
 // Empty for what every view shows at first.
@@ -216,6 +231,7 @@ void ViewArea::build(const QJsonObject& layout) {
 
 ViewTile* ViewArea::make_tile(Id section) {
   auto* tile = new ViewTile(workbench_, factories_, section);
+  connect(tile, &ViewTile::action_asked, this, &ViewArea::action_asked);
   connect(tile, &ViewTile::maximise_asked, this, [this, tile] { maximise(tile); });
   // Later: the tile is still handling the click that asked.
   connect(
@@ -267,10 +283,11 @@ void ViewArea::sync_sections() {
     if (maximised_ != nullptr) maximise(maximised_);
     ViewTile* tile = make_tile(id);
     column_for_sections()->addWidget(tile);
-    if (active_ == nullptr) continue;  // all are new
+    if (!is_built_) continue;  // all are new
     activate(tile);
     tile->view()->setFocus(Qt::OtherFocusReason);
   }
+  show_what_there_is();
 }
 
 void ViewArea::remove(ViewTile* tile) {
@@ -282,6 +299,7 @@ void ViewArea::remove(ViewTile* tile) {
   tile->deleteLater();
   drop_empty_columns();
   const auto left = tiles();
+  show_what_there_is();
   if (was_active) activate(left.empty() ? nullptr : left.front());
   if (was_active && active_ == nullptr) Q_EMIT active_changed();
 }

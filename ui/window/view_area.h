@@ -13,6 +13,7 @@ class QSplitter;
 
 namespace footwall::ui {
 
+class EmptyViews;
 class ViewTile;
 
 class ViewArea final : public QWidget {
@@ -46,6 +47,8 @@ class ViewArea final : public QWidget {
 
  Q_SIGNALS:
   void active_changed();
+  // A button of an empty view; action: of the window's table.
+  void action_asked(const QString& action);
 
  private:
   void sync_sections();
@@ -55,6 +58,8 @@ class ViewArea final : public QWidget {
   QSplitter* column_of(const ViewTile* tile) const;
   QSplitter* column_for_sections();
   void drop_empty_columns();
+  // Tiles, or what to do where there are none.
+  void show_what_there_is();
   QJsonObject look_of(const ViewTile& tile) const;
   void set_look(const ViewTile& tile, const QJsonObject& look);
   void remove(ViewTile* tile);
@@ -63,8 +68,10 @@ class ViewArea final : public QWidget {
   Workbench& workbench_;
   ViewFactories factories_;
   QSplitter* columns_ = nullptr;
+  EmptyViews* empty_ = nullptr;
   ViewTile* active_ = nullptr;
   ViewTile* maximised_ = nullptr;
+  bool is_built_ = false;
   // While a view is maximised: the sizes before, which hidden views do not have.
   QList<int> widths_before_;
   std::map<const QSplitter*, QList<int>> heights_before_;

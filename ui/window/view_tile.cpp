@@ -4,6 +4,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
+#include <QPushButton>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -87,6 +88,7 @@ ViewTile::ViewTile(Workbench& workbench, const ViewFactories& factories, Id sect
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
   column->addWidget(bar_);
+  if (section_ == 0) column->addWidget(import_ = make_import_strip());
   column->addWidget(view_, 1);
   setFocusProxy(view_);
 
@@ -115,16 +117,38 @@ void ViewTile::add_section_controls(QHBoxLayout& bar) {
   linked_ = text_button(bar_, tr("Linked views share cursor, zoom and place (L)"));
   linked_->setCheckable(true);
   connect(linked_, &QToolButton::clicked, this, [this](bool on) {
-    const Display::ShownSection* now = shown(workbench_, section_);
-    if (now == nullptr) return;
-    Display::ShownSection changed = *now;
-    changed.linked = on;
-    workbench_.display.change_section(changed);
+    change_section([](Display::ShownSection& shown, bool is) { shown.linked = is; }, on);
+  });
+  in_scene_ = small_button(bar_, QStringLiteral("plane"), tr("A plane of the scene, too (Ctrl+Alt+P)"));
+  in_scene_->setCheckable(true);
+  in_scene_->setObjectName(QStringLiteral("in-scene"));
+  connect(in_scene_, &QToolButton::clicked, this, [this](bool on) {
+    change_section([](Display::ShownSection& shown, bool is) { shown.in_scene = is; }, on);
   });
   ends_ = text_button(bar_, tr("The ends of the line as numbers (Ctrl+Alt+N)"));
   ends_->setText(tr("ends…"));
   connect(ends_, &QToolButton::clicked, this, [this] { open_line_dialog(workbench_, section_, window()); });
-  for (QToolButton* button : {volume_, ends_, linked_}) bar.addWidget(button);
+  for (QToolButton* button : {volume_, ends_, linked_, in_scene_}) bar.addWidget(button);
+}
+
+void ViewTile::change_section(void (*change)(Display::ShownSection& shown, bool on), bool on) {
+  const Display::ShownSection* now = shown(workbench_, section_);
+  if (now == nullptr) return;
+  Display::ShownSection changed = *now;
+  change(changed, on);
+  workbench_.display.change_section(changed);
+}
+
+QWidget* ViewTile::make_import_strip() {
+  auto* strip = new QWidget(this);
+  auto* row = new QHBoxLayout(strip);
+  row->setContentsMargins(8, 4, 8, 4);
+  row->addWidget(new QLabel(tr("There is no survey yet."), strip), 1);
+  auto* button = new QPushButton(tr("Import SEG-Y..."), strip);
+  connect(button, &QPushButton::clicked, this,
+          [this] { Q_EMIT action_asked(QStringLiteral("file.import")); });
+  row->addWidget(button);
+  return strip;
 }
 
 void ViewTile::add_scene_controls(QHBoxLayout& bar) {
@@ -173,11 +197,13 @@ void ViewTile::update_title() {
     }
     if (volume_->text() != volume) volume_->setText(volume);
     linked_->setChecked(now->linked);
+    in_scene_->setChecked(now->in_scene);
     ends_->setVisible(now->section.kind == Section::Kind::kLine && workbench_.document.survey());
     const QString linked = now->linked ? tr("linked") : tr("free");
     if (linked_->text() != linked) linked_->setText(linked);
   }
   if (section_ == 0) {
+    import_->setVisible(!workbench_.document.survey());
     perspective_->setText(workbench_.display.perspective() ? tr("perspective") : tr("parallel"));
     exaggeration_->setText(QStringLiteral("z × %1").arg(workbench_.display.exaggeration(), 0, 'g', 3));
   }

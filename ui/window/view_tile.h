@@ -27,6 +27,8 @@ class ViewTile final : public QFrame {
  Q_SIGNALS:
   void maximise_asked();
   void close_asked();
+  // A button of an empty view; action: of the window's table.
+  void action_asked(const QString& action);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -34,6 +36,9 @@ class ViewTile final : public QFrame {
  private:
   void add_section_controls(QHBoxLayout& bar);
   void add_scene_controls(QHBoxLayout& bar);
+  // Beside the scene: nothing can lie over its window.
+  QWidget* make_import_strip();
+  void change_section(void (*change)(Display::ShownSection& shown, bool on), bool on);
   void update_title();
 
   Workbench& workbench_;
@@ -43,10 +48,12 @@ class ViewTile final : public QFrame {
   QLabel* title_ = nullptr;
   QToolButton* volume_ = nullptr;
   QToolButton* linked_ = nullptr;
+  QToolButton* in_scene_ = nullptr;
   QToolButton* ends_ = nullptr;
   QToolButton* perspective_ = nullptr;
   QToolButton* exaggeration_ = nullptr;
   QWidget* view_ = nullptr;
+  QWidget* import_ = nullptr;
 };
 
 }  // namespace footwall::ui
