@@ -314,6 +314,7 @@ void SectionViewTest::cursors_are_linked() {
   other.show();
   QVERIFY(QTest::qWaitForWindowExposed(&other));
   QTRY_VERIFY(other.canvas().samples() != nullptr);
+  QTRY_VERIFY(open.bench.surfaces.is_settled());  // cuts that come later are no part of it
   const QImage before = other.canvas().grab().toImage();
   QTest::mouseMove(&open.canvas(), open.at(12, 30));
   QTRY_VERIFY(open.bench.display.cursor().has_value());
