@@ -55,7 +55,8 @@ void SceneDrawing::release() {
   gl.glDeleteVertexArrays(1, &background_layout_);
   for (auto& [name, texture] : colour_tables_) gl.glDeleteTextures(1, &texture);
   colour_tables_.clear();
-  for (auto* batch : {&box_, &pillars_, &loose_lines_, &over_lines_, &hover_lines_}) batch->release(gl);
+  for (auto* batch : {&box_, &pillars_, &loose_lines_, &through_lines_, &over_lines_, &hover_lines_})
+    batch->release(gl);
   selecting_sprite_.release(gl);
   for (auto* batch : {&nodes_, &loose_dots_, &hover_dots_}) batch->release(gl);
   labels_.release(gl);

@@ -178,7 +178,7 @@ class SceneDrawing {
   GlProgram background_;
   GLuint background_layout_ = 0;
   mutable std::map<QString, GLuint> colour_tables_;
-  MarkBatch<Line> box_, pillars_, loose_lines_, over_lines_, hover_lines_;
+  MarkBatch<Line> box_, pillars_, loose_lines_, through_lines_, over_lines_, hover_lines_;
   MarkBatch<Dot> nodes_, loose_dots_, hover_dots_;
   SpriteBatch labels_, flat_sprites_, selecting_sprite_;
   TextImages texts_;

@@ -272,6 +272,9 @@ void SceneDrawing::draw_over(const Pass& pass) {
   refresh_loose_marks();
   marks_.draw(*gl_, pass, loose_lines_, true);
   marks_.draw(*gl_, pass, loose_dots_, true);
+  gl_->glDisable(GL_DEPTH_TEST);
+  marks_.draw(*gl_, pass, through_lines_, true);
+  gl_->glEnable(GL_DEPTH_TEST);
 }
 
 void SceneDrawing::copy(const GlTarget& from, GLuint to, GLbitfield what) {

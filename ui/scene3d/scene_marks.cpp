@@ -142,6 +142,14 @@ void SceneDrawing::refresh_loose_marks() {
   }
   const Item& current = workbench_.selection.current();
   if (current.kind == Item::Kind::kFace) add_face_lines(marks.lines, current, colours_.accent, 4.0F);
+  // Faintly through what is before it, too: planes meet where the tour shows a face.
+  std::vector<Line> through;
+  if (current.kind == Item::Kind::kFace) {
+    QColor faint = colours_.accent;
+    faint.setAlphaF(0.75F);
+    add_face_lines(through, current, faint, 2.0F);
+  }
+  through_lines_.set(*gl_, through);
   const auto flat_point = [this](const survey::IndexPoint& p) { return Vec3f(flat_->scene_of(p)); };
   const std::vector<survey::IndexPoint>& stroke = workbench_.picking.stroke();
   for (std::size_t n = 1; flat_ && n < stroke.size(); ++n) {

@@ -172,6 +172,7 @@ void SceneView::Private::connect_models() {
 
 void SceneView::Private::show_place(const survey::IndexPoint& place, double reach) {
   if (!drawing.frame()) return;
+  reach *= 2;  // a place in space takes more of what is around it than one on a section
   std::vector<Vec3> corners;
   for (const double i : {-reach, reach}) {
     for (const double j : {-reach, reach}) {
