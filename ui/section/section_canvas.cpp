@@ -32,7 +32,7 @@ SectionCanvas::SectionCanvas(Workbench& bench, Id shown, QWidget* parent)
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_OpaquePaintEvent);
-  setMinimumSize(160, 120);
+  setMinimumSize(160, 72);  // four of them fit a column of a small screen
   setAccessibleName(tr("Section"));
   button_ = new QPushButton(this);
   button_->setFocusPolicy(Qt::TabFocus);
