@@ -41,6 +41,16 @@ void Selection::select(const Item& item, bool extend) {
   announce(active);
 }
 
+void Selection::add(const Item& item) {
+  const std::set<Id>* of_kind = item.kind == Item::Kind::kFault    ? &faults_
+                                : item.kind == Item::Kind::kPillar ? &pillars_
+                                : item.kind == Item::Kind::kNode   ? &nodes_
+                                                                   : nullptr;
+  if (of_kind == nullptr || !of_kind->contains(item.id)) return select(item, true);
+  current_ = item;
+  announce(active_fault_);
+}
+
 void Selection::select_all(std::set<Id> faults, std::set<Id> pillars, std::set<Id> nodes, bool extend) {
   if (!extend) {
     faults_.clear();

@@ -52,6 +52,8 @@ class Selection final : public QObject {
 
   // extend: adds, or takes away what was selected already, as Ctrl does.
   void select(const Item& item, bool extend = false);
+  // To what is selected already; the item becomes the current one.
+  void add(const Item& item);
   void select_all(std::set<Id> faults, std::set<Id> pillars, std::set<Id> nodes, bool extend = false);
   // What a lasso caught, instead of what was selected; says so where pillars without a fault are among it.
   void select_by_lasso(std::set<Id> faults, std::set<Id> pillars, std::set<Id> nodes);

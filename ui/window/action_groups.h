@@ -9,6 +9,7 @@ namespace footwall::ui {
 
 std::vector<ActionRow> file_actions();
 std::vector<ActionRow> edit_actions();
+std::vector<ActionRow> walk_actions();  // in the menu of edits
 std::vector<ActionRow> view_actions();
 std::vector<ActionRow> choice_actions();  // in the menu of views
 std::vector<ActionRow> survey_actions();

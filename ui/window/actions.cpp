@@ -32,8 +32,8 @@ QList<QKeySequence> keys_of(const ActionRow& row) {
 std::vector<ActionRow> action_table() {
   std::vector<ActionRow> table;
   for (const auto& group :
-       {file_actions(), edit_actions(), view_actions(), choice_actions(), survey_actions(), fault_actions(),
-        tour_actions(), compute_actions(), window_actions(), help_actions()}) {
+       {file_actions(), edit_actions(), walk_actions(), view_actions(), choice_actions(), survey_actions(),
+        fault_actions(), tour_actions(), compute_actions(), window_actions(), help_actions()}) {
     table.insert(table.end(), group.begin(), group.end());
   }
   return table;

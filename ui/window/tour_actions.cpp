@@ -5,6 +5,7 @@
 
 #include "ui/model/accept_shift.h"
 #include "ui/model/tour.h"
+#include "ui/model/walk.h"
 #include "ui/window/action_groups.h"
 #include "ui/window/main_window.h"
 #include "ui/window/view_area.h"
@@ -42,15 +43,7 @@ std::vector<TourStop> stops_of(const Workbench& bench, Id fault, Tour tour) {
 void show_stop(MainWindow& window, const TourStop& stop) {
   Workbench& bench = *window.workbench();
   bench.selection.select(stop.face);
-  const auto sections = bench.display.sections();
-  for (const Display::ShownSection& shown : sections) {
-    if (!shown.linked || shown.section.kind == Section::Kind::kLine) continue;
-    Section moved = shown.section;
-    moved.index = std::llround(moved.kind == Section::Kind::kInline      ? stop.place.i
-                               : moved.kind == Section::Kind::kCrossline ? stop.place.j
-                                                                         : stop.place.k);
-    bench.display.move_section(shown.id, stepped(moved, 0, *bench.document.survey()));
-  }
+  bring_sections_to(bench.display, *bench.document.survey(), stop.place);
   bench.display.show_place(stop.place, std::max(kAround, kFacesAround * stop.reach));
   // Where Enter accepts what the status line says.
   if (ViewTile* tile = window.views()->active()) tile->view()->setFocus(Qt::ShortcutFocusReason);

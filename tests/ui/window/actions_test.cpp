@@ -31,6 +31,7 @@ class ActionsTest final : public QObject {
   void shortcuts_do_what_the_menu_does();
   void enter_accepts_a_shift_over_the_views_alone();
   void shift_escape_leaves_the_active_fault();
+  void keys_go_from_pillar_to_pillar_and_from_node_to_node();
   void names_and_runs_need_something_to_name_and_run();
   void icons_follow_the_theme();
   void help_lists_every_action();
@@ -226,6 +227,35 @@ void ActionsTest::shift_escape_leaves_the_active_fault() {
   QCOMPARE(bench.document.fault(fault)->pillars.size(), pillars + 1);
   QVERIFY(is_unassigned(bench.document.faults().back()));
   QCOMPARE(bench.document.faults().back().pillars.size(), 1U);
+}
+
+void ActionsTest::keys_go_from_pillar_to_pillar_and_from_node_to_node() {
+  const SampleProject sample;
+  MainWindow window({});
+  open_with_the_keys(window, sample);
+  if (QTest::currentTestFailed()) return;
+  Workbench& bench = *window.workbench();
+  const Fault& fault = bench.document.faults().front();
+  QVERIFY(fault.pillars.size() > 2);
+  bench.selection.select({.kind = Item::Kind::kFault, .id = fault.record.id});
+  QTest::keyClick(&window, Qt::Key_Right, Qt::AltModifier);
+  QCOMPARE(bench.selection.current().kind, Item::Kind::kPillar);
+  const Id first = bench.selection.current().id;
+  QTest::keyClick(&window, Qt::Key_Right, Qt::AltModifier | Qt::ShiftModifier);
+  QCOMPARE(bench.selection.pillars().size(), 2U);
+  QVERIFY(bench.selection.current().id != first);
+  QTest::keyClick(&window, Qt::Key_Left, Qt::AltModifier);
+  QCOMPARE(bench.selection.pillars(), std::set<Id>{first});
+  QTest::keyClick(&window, Qt::Key_Down, Qt::AltModifier);
+  QCOMPARE(bench.selection.current().id, bench.document.pillar(first)->nodes.front().id);
+  QTest::keyClick(&window, Qt::Key_Up, Qt::AltModifier);
+  QCOMPARE(bench.selection.current().id, bench.document.pillar(first)->nodes.back().id);
+  QTest::keyClick(&window, Qt::Key_Up, Qt::AltModifier | Qt::ShiftModifier);
+  QCOMPARE(bench.selection.nodes().size(), 2U);
+  // What keys selected is deleted by keys.
+  const std::size_t nodes = bench.document.pillar(first)->nodes.size();
+  QTest::keyClick(&window, Qt::Key_Delete);
+  QCOMPARE(bench.document.pillar(first)->nodes.size(), nodes - 2);
 }
 
 void ActionsTest::names_and_runs_need_something_to_name_and_run() {
