@@ -169,6 +169,16 @@ void Display::remove_isosurface(Id id) {
   Q_EMIT changed();
 }
 
+void Display::put_back_isosurface(const IsosurfaceLook& look) {
+  const auto place =
+      std::ranges::find_if(isosurfaces_, [&](const IsosurfaceLook& other) { return other.id >= look.id; });
+  if (place != isosurfaces_.end() && place->id == look.id) return;
+  isosurfaces_.insert(place, look);
+  last_id_ = std::max(last_id_, look.id);
+  Q_EMIT isosurfaces_changed();
+  Q_EMIT changed();
+}
+
 Id Display::add_section(const Section& section) {
   sections_.push_back({.id = ++last_id_, .section = section});
   Q_EMIT sections_changed();

@@ -70,6 +70,8 @@ class Display final : public QObject {
   Id add_isosurface(Id volume, double value);
   void change_isosurface(const IsosurfaceLook& look);  // by id
   void remove_isosurface(Id id);
+  // One that was removed, as it was.
+  void put_back_isosurface(const IsosurfaceLook& look);
 
   // The sections of the tiled views; each is also a plane of the scene where visible there.
   struct ShownSection {

@@ -176,25 +176,60 @@ QModelIndex ProjectTree::index_of(const Item& item) const {
 }
 
 bool ProjectTree::remove(const std::vector<Item>& items) {
+  Removed removed;
   std::set<Id> faults;
   bool any = false;
   for (const Item& item : items) {
     if (item.kind == Item::Kind::kFault) faults.insert(item.id);
-    if (item.kind == Item::Kind::kIsosurface) {
-      display_.remove_isosurface(item.id);
-      any = true;
-    }
+    if (item.kind == Item::Kind::kIsosurface) any = remove_isosurface(item.id, removed) || any;
     if (item.kind == Item::Kind::kVolume) any = remove_volume(item.id) || any;
-    if (item.kind != Item::Kind::kView) continue;
-    try {
-      document_.store().delete_view(item.name.toStdString());
-      any = true;
-    } catch (const Error& error) {
-      tell(error);
-    }
-    Q_EMIT document_.views_changed();
+    if (item.kind == Item::Kind::kView) any = remove_view(item.name, removed) || any;
+  }
+  if (!removed.empty()) {
+    removed_ = std::move(removed);
+    Q_EMIT removed_changed();
   }
   return (!faults.empty() && delete_items(document_, faults, {}, {})) || any;
+}
+
+bool ProjectTree::remove_isosurface(Id isosurface, Removed& removed) {
+  const auto& all = display_.isosurfaces();
+  const auto found = std::ranges::find(all, isosurface, &IsosurfaceLook::id);
+  if (found == all.end()) return false;
+  removed.isosurfaces.push_back(*found);
+  display_.remove_isosurface(isosurface);
+  return true;
+}
+
+// What it shows stays in its setting, which only a view of the same name reads.
+bool ProjectTree::remove_view(const QString& name, Removed& removed) {
+  try {
+    const project::ViewRecord view = document_.project().view(name.toStdString());
+    document_.store().delete_view(view.name);
+    removed.views.push_back(view);
+  } catch (const Error& error) {
+    tell(error);
+    return false;
+  }
+  Q_EMIT document_.views_changed();
+  return true;
+}
+
+void ProjectTree::put_back() {
+  const Removed removed = std::exchange(removed_, {});
+  for (const IsosurfaceLook& look : removed.isosurfaces) display_.put_back_isosurface(look);
+  try {
+    const std::vector<project::ViewRecord> now = document_.project().views();
+    for (const project::ViewRecord& view : removed.views) {
+      // A newer one of the same name is what the user wants by now.
+      if (std::ranges::find(now, view.name, &project::ViewRecord::name) == now.end())
+        document_.store().save_view(view);
+    }
+  } catch (const Error& error) {
+    tell(error);
+  }
+  if (!removed.views.empty()) Q_EMIT document_.views_changed();
+  Q_EMIT removed_changed();
 }
 
 bool ProjectTree::remove_volume(Id volume) {

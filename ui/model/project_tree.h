@@ -29,10 +29,20 @@ class ProjectTree final : public QAbstractItemModel {
   // Nothing for a heading.
   Item item_of(const QModelIndex& index) const;
   QModelIndex index_of(const Item& item) const;
+  // What is outside of the history and left by remove().
+  struct Removed {
+    std::vector<IsosurfaceLook> isosurfaces = {};
+    std::vector<project::ViewRecord> views = {};
+    bool empty() const { return isosurfaces.empty() && views.empty(); }
+  };
+
   // Faults leave by one edit; isosurfaces, views and volumes at once, a volume with its isosurfaces and
   // without its file. Runs stay, since a large one takes its time: Project::delete_run. Whether any item
   // left.
   bool remove(const std::vector<Item>& items);
+  // By the last remove() of such items, until put_back(); not what went with a volume.
+  const Removed& removed() const { return removed_; }
+  void put_back();
 
   QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;
   QModelIndex parent(const QModelIndex& child) const override;
@@ -41,6 +51,9 @@ class ProjectTree final : public QAbstractItemModel {
   QVariant data(const QModelIndex& index, int role) const override;
   bool setData(const QModelIndex& index, const QVariant& value, int role) override;
   Qt::ItemFlags flags(const QModelIndex& index) const override;
+
+ Q_SIGNALS:
+  void removed_changed();
 
  private:
   enum Group : std::size_t { kVolumes, kFaults, kIsosurfaces, kRuns, kViews, kGroups };
@@ -63,6 +76,8 @@ class ProjectTree final : public QAbstractItemModel {
   bool rename_isosurface(Id isosurface, const QString& name);
   bool rename_volume(Id volume, const QString& name);
   bool rename_view(const QString& former, const QString& name);
+  bool remove_isosurface(Id isosurface, Removed& removed);
+  bool remove_view(const QString& name, Removed& removed);
   bool remove_volume(Id volume);
   bool show(const Row& row, bool on);
   void tell(const Error& error);
@@ -70,6 +85,7 @@ class ProjectTree final : public QAbstractItemModel {
 
   Document& document_;
   Display& display_;
+  Removed removed_;
   std::array<std::vector<Row>, kGroups> groups_;
 };
 

@@ -8,6 +8,7 @@
 #include "engine/extract/face_geometry.h"
 #include "storage/base/error.h"
 #include "storage/survey/lattice.h"
+#include "ui/model/unit_text.h"
 
 namespace footwall::ui {
 namespace {
@@ -133,7 +134,7 @@ void add_face(const Item& face, const Workbench& bench, Properties& to) {
     const auto numbers = bench.surfaces.numbers(face.id, QString::fromStdString(statistic.name));
     if (!numbers || place >= numbers->values.size()) continue;
     QString text = short_number(numbers->values[place]);
-    if (statistic.unit_rule != "1") text += QLatin1Char(' ') + QString::fromStdString(statistic.unit_rule);
+    if (const QString unit = unit_text(statistic.unit_rule); !unit.isEmpty()) text += QLatin1Char(' ') + unit;
     if (place < numbers->stale.size() && numbers->stale[place] != 0)
       text = tr("%1 (before it moved)").arg(text);
     to.rows.emplace_back(QString::fromStdString(statistic.name), text);

@@ -38,14 +38,6 @@ QImage blank(double width, double height, double pixel) {
 
 }  // namespace
 
-QString unit_text(const std::string& unit_rule) {
-  QString unit = QString::fromStdString(unit_rule);
-  if (unit == QStringLiteral("1")) return {};
-  unit.replace(QStringLiteral("^2"), QStringLiteral("\u00b2"))
-      .replace(QStringLiteral("^3"), QStringLiteral("\u00b3"));
-  return unit;
-}
-
 QImage colour_bar_image(const ColourBar& bar, const SceneColours& colours, const QFont& font, double pixel) {
   QFont small = font;
   small.setPixelSize(

@@ -28,7 +28,5 @@ QImage colour_bar_image(const ColourBar& bar, const SceneColours& colours, const
 // foreshortened.
 QImage north_arrow_image(double degrees, double length, const SceneColours& colours, const QFont& font,
                          double pixel);
-// "amplitude^2" -> "amplitude²", "1" -> "".
-QString unit_text(const std::string& unit_rule);
 
 }  // namespace footwall::ui

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "ui/model/unit_text.h"
 #include "ui/scene3d/scene_drawing.h"
 
 namespace footwall::ui {

@@ -13,6 +13,7 @@
 #include "ui/window/actions.h"
 #include "ui/window/dialogs.h"
 #include "ui/window/main_window.h"
+#include "ui/window/put_back.h"
 #include "ui/window/saved_views.h"
 #include "ui/window/theme.h"
 
@@ -93,6 +94,8 @@ void Docks::show_workbench(Workbench* workbench) {
           [this](const QString& name) { restore_view(window_, name); });
   connect(project, &ProjectPanel::isosurface_asked, this,
           [this](Id isosurface) { open_isosurface_dialog(window_, isosurface); });
+  connect(&project->tree(), &ProjectTree::removed_changed, project,
+          [this, project] { show_what_was_removed(window_, project->tree()); });
   dock(Panel::kProject)->setWidget(project);
   dock(Panel::kInspector)->setWidget(new InspectorPanel(*workbench, action));
   dock(Panel::kJobs)->setWidget(new JobsPanel({&workbench->jobs, &window_.start_jobs()}));

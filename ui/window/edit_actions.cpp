@@ -133,7 +133,7 @@ std::vector<ActionRow> first_actions() {
        QT_TRANSLATE_NOOP("Actions", "Give the selected fault, volume, isosurface or view another name"),
        kProject | kWriting | kNameable, rename, nullptr, true},
       {"edit.delete", M::kEdit, QT_TRANSLATE_NOOP("Actions", "&Delete"), "Del", "delete",
-       QT_TRANSLATE_NOOP("Actions", "Delete what is selected; undo brings faults, pillars and nodes back"),
+       QT_TRANSLATE_NOOP("Actions", "Delete what is selected; undo, or a banner, brings it back"),
        kProject | kWriting | kAnything,
        [](MainWindow& window) {
          if (ProjectPanel* panel = project_panel(window)) panel->delete_selected();

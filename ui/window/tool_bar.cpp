@@ -53,24 +53,25 @@ QString spoken(QString statistic) {
 
 }  // namespace
 
-ActionButton::ActionButton(QAction* action, bool shows_key, bool prominent, QWidget* parent)
-    : QToolButton(parent), shows_key_(shows_key), prominent_(prominent) {
+ActionButton::ActionButton(QAction* action, Shows shows, QWidget* parent)
+    : QToolButton(parent), shows_(shows) {
   setDefaultAction(action);
   setFocusPolicy(Qt::NoFocus);
 }
 
 QString ActionButton::words() const {
-  return defaultAction()->text().remove(QLatin1Char('&'));
+  return shows_ == Shows::kIcon ? QString() : defaultAction()->text().remove(QLatin1Char('&'));
 }
 
 QString ActionButton::key() const {
-  return shows_key_ ? defaultAction()->shortcut().toString(QKeySequence::NativeText) : QString();
+  return shows_ == Shows::kKey ? defaultAction()->shortcut().toString(QKeySequence::NativeText) : QString();
 }
 
 QSize ActionButton::sizeHint() const {
   const QFontMetrics metrics = fontMetrics();
   const int key_width = key().isEmpty() ? 0 : kGap + metrics.horizontalAdvance(key());
-  const int icon_width = prominent_ ? 0 : kIconPixels + kGap;
+  if (shows_ == Shows::kIcon) return {2 * kPadding + kIconPixels, kHeight};
+  const int icon_width = is_prominent() ? 0 : kIconPixels + kGap;
   return {2 * kPadding + icon_width + metrics.horizontalAdvance(words()) + key_width, kHeight};
 }
 
@@ -81,7 +82,7 @@ void ActionButton::paintEvent(QPaintEvent*) {
   const QColor accent = colours.color(QPalette::Highlight);
   const QRectF frame = QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5);
   QColor text = colours.color(isEnabled() ? QPalette::WindowText : QPalette::PlaceholderText);
-  if (prominent_ && isEnabled()) {
+  if (is_prominent() && isEnabled()) {
     painter.setPen(Qt::NoPen);
     painter.setBrush(isDown() ? accent.darker(120) : underMouse() ? accent.lighter(110) : accent);
     painter.drawRoundedRect(frame, 4, 4);
@@ -92,16 +93,16 @@ void ActionButton::paintEvent(QPaintEvent*) {
     painter.setPen(accent);
     painter.setBrush(tint);
     painter.drawRoundedRect(frame, 4, 4);
-  } else if (isEnabled() && (underMouse() || isDown() || prominent_)) {
+  } else if (isEnabled() && (underMouse() || isDown() || is_prominent())) {
     painter.setPen(Qt::NoPen);
     painter.setBrush(colours.color(QPalette::Mid));
     painter.drawRoundedRect(frame, 4, 4);
-  } else if (prominent_) {
+  } else if (is_prominent()) {
     painter.setPen(colours.color(QPalette::Mid));
     painter.drawRoundedRect(frame, 4, 4);
   }
   int x = kPadding;
-  if (!prominent_) {
+  if (!is_prominent()) {
     defaultAction()->icon().paint(&painter, QRect(x, (height() - kIconPixels) / 2, kIconPixels, kIconPixels),
                                   Qt::AlignCenter, isEnabled() ? QIcon::Normal : QIcon::Disabled);
     x += kIconPixels + kGap;
@@ -118,12 +119,15 @@ void ActionButton::paintEvent(QPaintEvent*) {
 ToolBar::ToolBar(const Actions& actions, QWidget* parent) : QToolBar(tr("Tools"), parent) {
   setObjectName(QStringLiteral("tools"));
   setMovable(false);
-  const auto add = [&](const char* id, bool shows_key, bool prominent = false) {
-    addWidget(new ActionButton(actions.action(QString::fromLatin1(id)), shows_key, prominent, this));
+  using Shows = ActionButton::Shows;
+  const auto add = [&](const char* id, Shows shows) {
+    addWidget(new ActionButton(actions.action(QString::fromLatin1(id)), shows, this));
   };
-  for (const char* id : {"tool.select", "tool.pick", "tool.move"}) add(id, true);
+  for (const char* id : {"file.new", "file.open"}) add(id, Shows::kIcon);
   addSeparator();
-  for (const char* id : {"view.inline", "view.crossline", "view.slice", "view.line"}) add(id, false);
+  for (const char* id : {"tool.select", "tool.pick", "tool.move"}) add(id, Shows::kKey);
+  addSeparator();
+  for (const char* id : {"view.inline", "view.crossline", "view.slice", "view.line"}) add(id, Shows::kName);
   addSeparator();
   colours_ = add_choice(tr("Colours of the sections"), [this](QMenu& menu) { fill_colour_maps(menu); });
   clip_ = add_choice(tr("Amplitudes beyond this percentile get the last colour"), [this](QMenu& menu) {
@@ -149,9 +153,9 @@ ToolBar::ToolBar(const Actions& actions, QWidget* parent) : QToolBar(tr("Tools")
   auto* space = new QWidget(this);
   space->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   addWidget(space);
-  for (const char* id : {"edit.undo", "edit.redo"}) add(id, false);
+  for (const char* id : {"edit.undo", "edit.redo"}) add(id, Shows::kName);
   addSeparator();
-  add("compute.update-all", false, true);
+  add("compute.update-all", Shows::kProminent);
 }
 
 QToolButton* ToolBar::add_choice(const QString& tip, const std::function<void(QMenu&)>& fill) {

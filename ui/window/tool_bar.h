@@ -9,13 +9,14 @@ namespace footwall::ui {
 
 class Actions;
 
-// An action as icon, name and its key in dim letters.
+// An action as a button of the tool bar.
 class ActionButton final : public QToolButton {
   Q_OBJECT
 
  public:
-  // prominent: the one button that stands out.
-  ActionButton(QAction* action, bool shows_key, bool prominent, QWidget* parent = nullptr);
+  // The icon; with the name; with its key in dim letters, too; or the name of the one button that stands out.
+  enum class Shows { kIcon, kName, kKey, kProminent };
+  ActionButton(QAction* action, Shows shows, QWidget* parent = nullptr);
   QSize sizeHint() const override;
 
  protected:
@@ -24,8 +25,8 @@ class ActionButton final : public QToolButton {
  private:
   QString words() const;
   QString key() const;
-  bool shows_key_ = false;
-  bool prominent_ = false;
+  bool is_prominent() const { return shows_ == Shows::kProminent; }
+  Shows shows_;
 };
 
 class ToolBar final : public QToolBar {

@@ -12,6 +12,7 @@
 #include "ui/model/fault_commands.h"
 #include "ui/sample_project.h"
 #include "ui/test_class.h"
+#include "ui/window/banner.h"
 #include "ui/window/docks.h"
 #include "ui/window/help_window.h"
 #include "ui/window/main_window.h"
@@ -33,6 +34,7 @@ class ActionsTest final : public QObject {
   void shift_escape_leaves_the_active_fault();
   void keys_go_from_pillar_to_pillar_and_from_node_to_node();
   void names_and_runs_need_something_to_name_and_run();
+  void deleted_views_and_isosurfaces_are_put_back();
   void icons_follow_the_theme();
   void help_lists_every_action();
   void the_guide_has_every_action_with_its_keys();
@@ -279,6 +281,52 @@ void ActionsTest::names_and_runs_need_something_to_name_and_run() {
   window.actions().action(QStringLiteral("edit.select-all"))->trigger();
   window.actions().action(QStringLiteral("edit.delete"))->trigger();
   QVERIFY(!enabled("compute.run"));
+}
+
+void ActionsTest::deleted_views_and_isosurfaces_are_put_back() {
+  const SampleProject sample;
+  MainWindow window({});
+  open_with_the_keys(window, sample);
+  if (QTest::currentTestFailed()) return;
+  Workbench& bench = *window.workbench();
+  const QString banner = QStringLiteral("removed");
+  const auto remove = [&](const Item& item) {
+    bench.selection.select(item);
+    window.actions().action(QStringLiteral("edit.delete"))->trigger();
+  };
+
+  const Id first = bench.display.add_isosurface(bench.display.volume(), 0.25);
+  bench.display.add_isosurface(bench.display.volume(), 0.5);
+  const std::vector<IsosurfaceLook> looks = bench.display.isosurfaces();
+  remove({.kind = Item::Kind::kIsosurface, .id = first});
+  QCOMPARE(bench.display.isosurfaces().size(), 1U);
+  QVERIFY(window.banners().press(banner, 0));
+  QVERIFY(bench.display.isosurfaces() == looks);
+  QVERIFY(!window.banners().has(banner));
+
+  project::ViewRecord view;
+  view.name = "north wall";
+  view.camera = "30,20,1";
+  bench.document.store().save_view(view);
+  Q_EMIT bench.document.views_changed();
+  remove({.kind = Item::Kind::kView, .name = QStringLiteral("north wall")});
+  QVERIFY(bench.document.project().views().empty());
+  QVERIFY(window.banners().text(banner).contains(QStringLiteral("north wall")));
+  QVERIFY(window.banners().press(banner, 0));
+  QCOMPARE(bench.document.project().view("north wall").camera, view.camera);
+
+  // One that was saved anew meanwhile stays as it is.
+  remove({.kind = Item::Kind::kView, .name = QStringLiteral("north wall")});
+  view.camera = "10,20,2";
+  bench.document.store().save_view(view);
+  QVERIFY(window.banners().press(banner, 0));
+  QCOMPARE(bench.document.project().view("north wall").camera, std::string("10,20,2"));
+
+  // Faults have the history; a banner that was dismissed does not come again by them.
+  remove({.kind = Item::Kind::kIsosurface, .id = first});
+  QVERIFY(window.banners().press(banner, 1));
+  remove({.kind = Item::Kind::kFault, .id = bench.document.faults().front().record.id});
+  QVERIFY(!window.banners().has(banner));
 }
 
 void ActionsTest::icons_follow_the_theme() {
