@@ -1,6 +1,7 @@
 #include "ui/window/tool_bar.h"
 
 #include <QAction>
+#include <QLayout>
 #include <QMenu>
 #include <QPainter>
 #include <algorithm>
@@ -59,18 +60,32 @@ ActionButton::ActionButton(QAction* action, Shows shows, QWidget* parent)
   setFocusPolicy(Qt::NoFocus);
 }
 
+void ActionButton::set_narrowness(int narrowness) {
+  if (narrowness == narrowness_) return;
+  narrowness_ = narrowness;
+  updateGeometry();
+  update();
+}
+
+bool ActionButton::is_icon_alone() const {
+  return shows_ == Shows::kIcon || (shows_ == Shows::kName && narrowness_ > 0) ||
+         (shows_ == Shows::kKey && narrowness_ > 1);
+}
+
 QString ActionButton::words() const {
-  return shows_ == Shows::kIcon ? QString() : defaultAction()->text().remove(QLatin1Char('&'));
+  return is_icon_alone() ? QString() : defaultAction()->text().remove(QLatin1Char('&'));
 }
 
 QString ActionButton::key() const {
-  return shows_ == Shows::kKey ? defaultAction()->shortcut().toString(QKeySequence::NativeText) : QString();
+  return shows_ == Shows::kKey && !is_icon_alone()
+             ? defaultAction()->shortcut().toString(QKeySequence::NativeText)
+             : QString();
 }
 
 QSize ActionButton::sizeHint() const {
   const QFontMetrics metrics = fontMetrics();
   const int key_width = key().isEmpty() ? 0 : kGap + metrics.horizontalAdvance(key());
-  if (shows_ == Shows::kIcon) return {2 * kPadding + kIconPixels, kHeight};
+  if (is_icon_alone()) return {2 * kPadding + kIconPixels, kHeight};
   const int icon_width = is_prominent() ? 0 : kIconPixels + kGap;
   return {2 * kPadding + icon_width + metrics.horizontalAdvance(words()) + key_width, kHeight};
 }
@@ -156,6 +171,24 @@ ToolBar::ToolBar(const Actions& actions, QWidget* parent) : QToolBar(tr("Tools")
   for (const char* id : {"edit.undo", "edit.redo"}) add(id, Shows::kName);
   addSeparator();
   add("compute.update-all", Shows::kProminent);
+}
+
+void ToolBar::resizeEvent(QResizeEvent* event) {
+  QToolBar::resizeEvent(event);
+  fit_into_width();
+}
+
+// Names give way before a button does: what does not fit would hide in a menu at the end.
+void ToolBar::fit_into_width() {
+  const auto buttons = findChildren<ActionButton*>();
+  constexpr int kNarrowest = 2;
+  for (int narrowness = 0; narrowness <= kNarrowest; ++narrowness) {
+    for (ActionButton* button : buttons) button->set_narrowness(narrowness);
+    int needed = layout()->contentsMargins().left() + layout()->contentsMargins().right();
+    for (QAction* action : actions())
+      needed += widgetForAction(action)->sizeHint().width() + layout()->spacing();
+    if (needed <= width()) return;
+  }
 }
 
 QToolButton* ToolBar::add_choice(const QString& tip, const std::function<void(QMenu&)>& fill) {
@@ -244,6 +277,7 @@ void ToolBar::refresh() {
       statistic_->setIcon({});
       break;
   }
+  fit_into_width();
 }
 
 }  // namespace footwall::ui

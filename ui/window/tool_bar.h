@@ -17,6 +17,8 @@ class ActionButton final : public QToolButton {
   // The icon; with the name; with its key in dim letters, too; or the name of the one button that stands out.
   enum class Shows { kIcon, kName, kKey, kProminent };
   ActionButton(QAction* action, Shows shows, QWidget* parent = nullptr);
+  // In a narrow window: 1 leaves names out, 2 also those with their keys. The prominent one keeps its name.
+  void set_narrowness(int narrowness);
   QSize sizeHint() const override;
 
  protected:
@@ -26,7 +28,9 @@ class ActionButton final : public QToolButton {
   QString words() const;
   QString key() const;
   bool is_prominent() const { return shows_ == Shows::kProminent; }
+  bool is_icon_alone() const;
   Shows shows_;
+  int narrowness_ = 0;
 };
 
 class ToolBar final : public QToolBar {
@@ -40,7 +44,11 @@ class ToolBar final : public QToolBar {
   enum class Choice { kColours, kClip, kStatistic };
   void open(Choice choice);
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
+  void fit_into_width();
   QToolButton* add_choice(const QString& tip, const std::function<void(QMenu&)>& fill);
   void fill_colour_maps(QMenu& menu);
   void fill_statistics(QMenu& menu);

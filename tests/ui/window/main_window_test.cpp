@@ -26,6 +26,7 @@
 #include "ui/window/start_page.h"
 #include "ui/window/status_line.h"
 #include "ui/window/theme.h"
+#include "ui/window/tool_bar.h"
 #include "ui/window/view_area.h"
 #include "ui/window/view_tile.h"
 
@@ -52,6 +53,7 @@ class MainWindowTest final : public QObject {
   Q_OBJECT
 
  private Q_SLOTS:
+  void the_tool_bar_keeps_its_buttons_in_a_narrow_window();
   void initTestCase() { apply_theme(Theme::kDark); }
   void shows_the_start_page_then_a_project();
   void says_why_a_file_is_no_project();
@@ -507,6 +509,33 @@ void MainWindowTest::choices_of_the_tool_bar_open_by_key() {
   QTRY_COMPARE(display.samples().colour_map, QStringLiteral("viridis"));
   choose("choose.clip", QStringLiteral("clip 95 %"));
   QTRY_COMPARE(display.samples().clip_percentile, 95.0);
+}
+
+void MainWindowTest::the_tool_bar_keeps_its_buttons_in_a_narrow_window() {
+  const SampleProject sample;
+  MainWindow window({});
+  window.show();
+  QVERIFY(window.open_project(QString::fromStdString(sample.path().string())));
+  const auto buttons = window.tool_bar()->findChildren<ActionButton*>();
+  QVERIFY(!buttons.isEmpty());
+  const auto width_of_all = [&] {
+    int width = 0;
+    for (const ActionButton* button : buttons) width += button->width();
+    return width;
+  };
+  window.resize(1800, 800);
+  QCoreApplication::processEvents();
+  const int wide = width_of_all();
+  for (const int width : {1280, 1100}) {
+    window.resize(width, 800);
+    QCoreApplication::processEvents();
+    QCOMPARE(window.width(), width);
+    for (const ActionButton* button : buttons) QVERIFY(button->isVisible());
+    QVERIFY(width_of_all() < wide);
+  }
+  window.resize(1800, 800);
+  QCoreApplication::processEvents();
+  QCOMPARE(width_of_all(), wide);
 }
 
 static const RegisterTest<MainWindowTest> kRegistered;
