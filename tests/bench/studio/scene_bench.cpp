@@ -98,6 +98,38 @@ void measure_turns(MadeScene& scene, const std::string& name) {
              scene.view->counters().longest_slice_ms);
 }
 
+// A surface as it comes from other programs: all of it at once.
+void measure_one_large(const QSize& size) {
+  MadeScene scene({48, 40, 64}, 2, 2);
+  add_many_faults(scene.bench.document, 1);
+  const Id id = scene.bench.document.faults().back().record.id;
+  scene.view->resize(size);
+  footwall::require(scene.settle(), "a scene that is drawn");
+  scene.remake(id, 500, 500);
+  fmt::print("one fault, {} triangles\n", scene.surfaces[id]->faces.size());
+  scene.view->reset_counters();
+  QElapsedTimer clock;
+  clock.start();
+  Q_EMIT scene.bench.surfaces.surfaces_changed({id});
+  footwall::require(scene.settle(), "a scene that is drawn");
+  footwall::require(scene.view->counters().uploads > 0, "an upload");
+  fmt::print("{:<34} {:14.0f} ms, longest slice {:.1f} ms\n", "until it is drawn", milliseconds(clock),
+             scene.view->counters().longest_slice_ms);
+  std::vector<double> hovers;
+  for (int n = 0; n < kTurns; ++n) {
+    clock.start();
+    QTest::mouseMove(scene.view.get(), {size.width() / 2 + n, size.height() / 2});
+    hovers.push_back(milliseconds(clock));
+  }
+  print("the mouse over it", hovers);
+  clock.start();
+  scene.bench.selection.select({.kind = Item::Kind::kFault, .id = id});
+  std::vector<double> frames{milliseconds(clock)};
+  while (!scene.view->is_settled()) frames.push_back(frame_ms(*scene.view));
+  print("frame while it is selected", frames);
+  measure_turns(scene, "one large");
+}
+
 void measure(const QSize& size) {
   MadeScene scene({48, 40, 64}, 50, 25);
   add_many_faults(scene.bench.document, kFaults);
@@ -134,7 +166,9 @@ void measure(const QSize& size) {
 int main(int argc, char** argv) {
   const QApplication application(argc, argv);
   try {
-    measure(argc > 2 ? QSize(std::atoi(argv[1]), std::atoi(argv[2])) : QSize(900, 700));
+    const QSize size = argc > 2 ? QSize(std::atoi(argv[1]), std::atoi(argv[2])) : QSize(900, 700);
+    measure(size);
+    measure_one_large(size);
   } catch (const footwall::Error& error) {
     return fmt::print(stderr, "{}\n", error.message()), 1;
   }

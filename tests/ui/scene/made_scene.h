@@ -113,8 +113,9 @@ class MadeScene {
   }
 
   // The surface from the pillars shown, and numbers for it; tells nobody.
-  void remake(Id fault) {
-    const auto surface = joined(bench.document, fault, rows_, columns_);
+  void remake(Id fault) { remake(fault, rows_, columns_); }
+  void remake(Id fault, int rows, int columns) {
+    const auto surface = joined(bench.document, fault, rows, columns);
     auto values = std::make_shared<FaceNumbers>();
     for (std::size_t n = 0; n < surface->faces.size(); ++n) {
       const double x = static_cast<double>(n) / static_cast<double>(surface->faces.size());
