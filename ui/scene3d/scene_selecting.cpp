@@ -12,6 +12,10 @@ using render::Vec3;
 
 // Share of the distance by which a node may lie behind a surface and be seen: as for the mouse.
 constexpr double kBehind = 0.01;
+// Of a surface without pillars: corners that are looked at, and of these such that are looked for behind
+// others.
+constexpr std::size_t kCorners = 20'000;
+constexpr std::size_t kSeenCorners = 50;
 
 }  // namespace
 
@@ -55,10 +59,10 @@ double SceneView::Private::depth_at(const QPointF& pixel, const render::Camera& 
   return dot(ray.from + ray.along * nearest - camera.eye, camera.forward);
 }
 
-// A fault whose pillars all lie in the region counts as a whole, but for the one of unassigned pillars, which
-// is none; a pillar whose nodes all do, as a pillar; else single nodes. Of what nothing is seen, because it
-// is behind something or beside the picture, nothing is selected: one node that is seen is enough, and no
-// more are looked at.
+// A fault whose pillars all lie in the region counts as a whole, and so does one without pillars whose
+// surface does, but for the one of unassigned pillars, which is none; a pillar whose nodes all do, as a
+// pillar; else single nodes. Of what nothing is seen, because it is behind something or beside the picture,
+// nothing is selected: one node that is seen is enough, and no more are looked at.
 void SceneView::Private::select_within(const QPolygonF& region, bool extend) {
   if (!drawing.frame()) return;
   const render::Camera camera = drawing.seen();
@@ -73,15 +77,33 @@ void SceneView::Private::select_within(const QPolygonF& region, bool extend) {
     return view.rect().contains(one.pixel.toPoint()) &&
            one.depth <= depth_at(one.pixel, camera) * (1 + kBehind);
   };
+  const auto look_at = [&](const Vec3& flat) -> std::optional<Inside> {
+    const Vec3 at{flat.x, flat.y, flat.z * heights};
+    QPointF pixel;
+    if (!project_to(camera, size(), at, &pixel) || !box.contains(pixel)) return std::nullopt;
+    if (!region.containsPoint(pixel, Qt::OddEvenFill)) return std::nullopt;
+    return Inside{0, pixel, dot(at - camera.eye, camera.forward)};
+  };
+  const auto holds = [&](const FaultGeometry& mesh) {
+    const auto& corners = mesh.positions();
+    std::vector<Inside> inside;
+    for (std::size_t n = 0; n < corners.size(); n += 1 + corners.size() / kCorners) {
+      const auto one = look_at({corners[n].x, corners[n].y, corners[n].z});
+      if (!one) return false;
+      inside.push_back(*one);
+    }
+    for (std::size_t n = 0; n < inside.size(); n += 1 + inside.size() / kSeenCorners) {
+      if (is_seen(inside[n])) return true;
+    }
+    return false;
+  };
   const auto inside_of = [&](const survey::Pillar& pillar) {
     std::vector<Inside> inside;
     for (const survey::PillarNode& node : pillar.nodes) {
-      const Vec3 flat = drawing.flat_of(node.position);
-      const Vec3 at{flat.x, flat.y, flat.z * heights};
-      QPointF pixel;
-      if (!project_to(camera, size(), at, &pixel) || !box.contains(pixel)) continue;
-      if (region.containsPoint(pixel, Qt::OddEvenFill))
-        inside.push_back({node.id, pixel, dot(at - camera.eye, camera.forward)});
+      auto one = look_at(drawing.flat_of(node.position));
+      if (!one) continue;
+      one->node = node.id;
+      inside.push_back(*one);
     }
     return inside;
   };
@@ -97,6 +119,10 @@ void SceneView::Private::select_within(const QPolygonF& region, bool extend) {
       auto of = inside_of(pillar);
       if (of.size() == pillar.nodes.size()) ++whole;
       if (!of.empty()) inside.emplace_back(&pillar, std::move(of));
+    }
+    if (const FaultGeometry* mesh = drawing.geometry(fault.record.id);
+        count == 0 && mesh != nullptr && mesh->face_count() > 0 && holds(*mesh)) {
+      faults.insert(fault.record.id);
     }
     // 2 What of it is seen.
     if (count > 1 && whole == count && !is_unassigned(fault)) {

@@ -220,19 +220,29 @@ void SectionCanvas::select_under(const Pointer& pointer) {
 }
 
 // Pillars whose nodes on and near this section, as far as pillars are drawn, all lie in the region; of the
-// others single nodes on the section. What a pillar has far from here is not seen and does not count.
+// others single nodes on the section. What a pillar has far from here is not seen and does not count. A fault
+// without pillars, as surfaces are imported, counts where all of its cut lies in the region.
 void SectionCanvas::select_within(const QPolygonF& region, bool extend) {
   const double near = bench_.display.fade_distance();
-  std::set<Id> pillars, nodes;
+  std::set<Id> faults, pillars, nodes;
+  const auto is_inside = [&](const PlanePoint& at) {
+    return region.containsPoint(view_.to_pixels(at), Qt::OddEvenFill);
+  };
   for (const Fault& fault : bench_.document.faults()) {
     if (!bench_.display.is_visible({.kind = Item::Kind::kFault, .id = fault.record.id})) continue;
+    const std::vector<CutSegment>& cut = shapes_.of(fault.record.id).cut;
+    if (fault.pillars.empty() && !cut.empty() && std::ranges::all_of(cut, [&](const CutSegment& segment) {
+          return is_inside(segment[0]) && is_inside(segment[1]);
+        })) {
+      faults.insert(fault.record.id);
+    }
     for (const ShapedPillar& pillar : shapes_.of(fault.record.id).pillars) {
       std::size_t here = 0, caught = 0;
       std::set<Id> inside;
       for (const ShapedNode& node : pillar.nodes) {
         if (!node.on_section() && !(std::abs(node.distance) < near)) continue;
         ++here;
-        if (!region.containsPoint(view_.to_pixels(node.at), Qt::OddEvenFill)) continue;
+        if (!is_inside(node.at)) continue;
         ++caught;
         if (node.on_section()) inside.insert(node.id);
       }
@@ -244,8 +254,10 @@ void SectionCanvas::select_within(const QPolygonF& region, bool extend) {
     }
   }
   const bool lasso = pressed_.modifiers.testFlag(Qt::ShiftModifier);
-  if (lasso && !extend) return bench_.selection.select_by_lasso({}, std::move(pillars), std::move(nodes));
-  bench_.selection.select_all({}, std::move(pillars), std::move(nodes), extend);
+  Selection& selection = bench_.selection;
+  if (lasso && !extend)
+    return selection.select_by_lasso(std::move(faults), std::move(pillars), std::move(nodes));
+  selection.select_all(std::move(faults), std::move(pillars), std::move(nodes), extend);
 }
 
 bool SectionCanvas::type_jump(const QKeyEvent& event) {

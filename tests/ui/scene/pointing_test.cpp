@@ -133,6 +133,7 @@ class PointingTest final : public QObject {
   void small_moves_turn_nothing();
   void keys_work();
   void selects_by_box_and_lasso();
+  void a_box_around_a_surface_without_pillars_selects_it();
   void a_lasso_assigns_pillars_in_one_step();
   void presets_say_what_the_mouse_does();
   void cameras_come_back_exactly();
@@ -546,6 +547,38 @@ void PointingTest::selects_by_box_and_lasso() {
   QVERIFY(!deep.empty());
   drag(scene.view.get(), Qt::LeftButton, {{1, 1}, {400, 300}, {898, 698}});
   for (const Id hidden : selection.nodes()) QVERIFY(!deep.contains(hidden));
+}
+
+void PointingTest::a_box_around_a_surface_without_pillars_selects_it() {
+  MadeScene scene;
+  const Id with_pillars = scene.first_fault();
+  const Id imported = new_fault(scene.bench.document);
+  const auto surface = std::make_shared<FaultSurface>(*scene.surfaces[with_pillars]);
+  surface->fault = imported;
+  scene.surfaces[imported] = surface;
+  scene.numbers[imported] = scene.numbers[with_pillars];
+  Q_EMIT scene.bench.surfaces.surfaces_changed({imported});
+  for (const Fault& fault : scene.bench.document.faults()) {
+    const Id id = fault.record.id;
+    scene.bench.display.set_visible({.kind = Item::Kind::kFault, .id = id}, id == imported);
+  }
+  QVERIFY(scene.settle());
+  const Selection& selection = scene.bench.selection;
+  drag(scene.view.get(), Qt::LeftButton, {{1, 1}, {400, 300}, {898, 698}});
+  QCOMPARE(selection.faults(), std::set<Id>{imported});
+  drag(scene.view.get(), Qt::LeftButton, {{1, 1}, {200, 300}, {449, 698}});  // half of it
+  QVERIFY(selection.faults().empty());
+  // Under a plane nothing of it is seen.
+  scene.view->look(StandardView::kTop);
+  scene.bench.display.add_section({.kind = Section::Kind::kSlice, .index = 0});
+  auto deeper = std::make_shared<FaultSurface>(*surface);
+  const double depth = scene.bench.document.survey()->world_of({0, 0, 10}).z;
+  for (survey::WorldPoint& vertex : deeper->vertices) vertex.z = std::max(vertex.z, depth);
+  scene.surfaces[imported] = deeper;
+  Q_EMIT scene.bench.surfaces.surfaces_changed({imported});
+  QVERIFY(scene.settle());
+  drag(scene.view.get(), Qt::LeftButton, {{1, 1}, {400, 300}, {898, 698}});
+  QVERIFY(selection.faults().empty());
 }
 
 void PointingTest::a_lasso_assigns_pillars_in_one_step() {

@@ -4,7 +4,9 @@
 #include <QTest>
 #include <QWheelEvent>
 #include <cmath>
+#include <fstream>
 
+#include "engine/tasks/import_surface.h"
 #include "engine/tasks/new_project.h"
 #include "ui/model/fault_commands.h"
 #include "ui/model/sample_colours.h"
@@ -109,6 +111,7 @@ class SectionViewTest final : public QObject {
   void pillars_fade_with_distance();
   void selects_by_click_box_and_lasso();
   void a_lasso_catches_what_is_seen_of_pillars();
+  void a_box_around_the_cut_of_an_imported_surface_selects_it();
   void a_selected_face_has_a_thicker_cut();
   void a_hovered_fault_without_a_cut_shows_by_its_pillars();
   void keys_are_let_go_with_the_focus();
@@ -523,6 +526,52 @@ void SectionViewTest::a_lasso_catches_what_is_seen_of_pillars() {
   lasso(32, 5, 38, 20, {});
   QVERIFY(selection.pillars().empty());
   QCOMPARE(selection.nodes(), std::set<Id>{document.pillar(off)->nodes[0].id});
+}
+
+void SectionViewTest::a_box_around_the_cut_of_an_imported_surface_selects_it() {
+  const SampleProject sample;
+  {
+    // A square that stands across inline 20, from crossline 10 to 25 and sample 15 to 45.
+    project::Project project = sample.open();
+    const survey::Geometry survey = *project.survey();
+    const std::filesystem::path file = sample.path().parent_path() / "square.ts";
+    std::ofstream out(file);
+    out << "GOCAD TSurf 1\nHEADER {\nname:square\n}\nGOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME Default\n"
+           "AXIS_NAME \"X\" \"Y\" \"Z\"\nAXIS_UNIT \"m\" \"m\" \"ms\"\nZPOSITIVE Depth\n"
+           "END_ORIGINAL_COORDINATE_SYSTEM\nTFACE\n"
+        << std::fixed;
+    int n = 0;
+    for (const survey::IndexPoint& corner :
+         {survey::IndexPoint{10, 10, 15}, {30, 10, 15}, {30, 25, 45}, {10, 25, 45}}) {
+      const survey::WorldPoint p = survey.world_of(corner);
+      out << "VRTX " << ++n << ' ' << p.x << ' ' << p.y << ' ' << p.z << '\n';
+    }
+    out << "TRGL 1 2 3\nTRGL 1 3 4\nEND\n";
+    out.close();
+    tasks::import_surface(project, file, {}, {});
+  }
+  OpenView open(sample);
+  QVERIFY(open.arrived);
+  const Id square = open.bench.document.faults().back().record.id;
+  QVERIFY(open.bench.document.fault(square)->pillars.empty());
+  QTRY_VERIFY_WITH_TIMEOUT(open.bench.surfaces.is_settled(), 60'000);
+  for (const Fault& fault : open.bench.document.faults()) {
+    const Id id = fault.record.id;
+    open.bench.display.set_visible({.kind = Item::Kind::kFault, .id = id}, id == square);
+  }
+  const auto box = [&](const QPoint& from, const QPoint& to) {
+    QTest::mousePress(&open.canvas(), Qt::LeftButton, {}, from);
+    for (const QPoint& at : {(from + to) / 2, to}) {
+      QMouseEvent move(QEvent::MouseMove, at, open.canvas().mapToGlobal(at), Qt::NoButton, Qt::LeftButton,
+                       {});
+      QApplication::sendEvent(&open.canvas(), &move);
+    }
+    QTest::mouseRelease(&open.canvas(), Qt::LeftButton, {}, to);
+  };
+  box(open.at(6, 8), open.at(29, 52));
+  QCOMPARE(open.bench.selection.faults(), std::set<Id>{square});
+  box(open.at(6, 8), open.at(29, 30));  // a part of it
+  QVERIFY(open.bench.selection.faults().empty());
 }
 
 void SectionViewTest::a_selected_face_has_a_thicker_cut() {
