@@ -30,8 +30,9 @@ std::optional<Shift> shift_of_face(const survey::Geometry& survey, const std::ve
 std::optional<Shift> shift_of_pillar(const survey::Geometry& survey, const survey::Pillar& pillar,
                                      const FaultSurface& surface, const FaceNumbers& offsets);
 
-// Of the current face, or of all selected pillars. Nothing where there is none; why (may be null) says so in
-// a line, and is left empty where neither a face nor a pillar is selected.
+// Of the current face, or of all selected pillars, by what is known now, also while views show a stored run.
+// Nothing where there is none; why (may be null) says so in a line, and is left empty where neither a face
+// nor a pillar is selected.
 std::optional<Shift> suggested_shift(const Document& document, const Surfaces& surfaces,
                                      const Selection& selection, QString* why);
 // What Enter would do, in a line; empty where it would do nothing.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "storage/base/log.h"
+
 namespace footwall::ui {
 namespace {
 
@@ -98,6 +100,9 @@ Display::Display(Document& document, QObject* parent) : QObject(parent), documen
     const bool here = std::ranges::find(volumes, volume_, &project::VolumeRecord::id) != volumes.end();
     if (!here) set_volume(volumes.empty() ? 0 : volumes.front().id);
   });
+  connect(&document_, &Document::runs_changed, this, [this] {
+    if (!has_run(faces_.run)) show_run(0);
+  });
 }
 
 SampleLook Display::first_look(Id volume) const {
@@ -135,6 +140,24 @@ void Display::set_faces(const FaceLook& look) {
   faces_ = look;
   Q_EMIT faces_changed();
   Q_EMIT changed();
+}
+
+void Display::show_run(Id run) {
+  FaceLook look = faces_;
+  look.run = run;
+  if (run != 0) look.colours = FaceColours::kStatistic;
+  set_faces(look);
+}
+
+bool Display::has_run(Id run) const {
+  if (run == 0) return false;
+  try {
+    const auto runs = document_.project().runs();
+    return std::ranges::find(runs, run, &project::RunRecord::id) != runs.end();
+  } catch (const Error& error) {
+    log::warn("the runs cannot be listed: " + error.message());
+    return false;
+  }
 }
 
 void Display::set_visible(const Item& item, bool visible) {
@@ -267,6 +290,7 @@ QJsonObject Display::to_json() const {
                     {"statistic", faces_.statistic},
                     {"colour_map", faces_.colour_map},
                     {"edges", faces_.edges}};
+  if (faces_.run != 0) faces["run"] = static_cast<double>(faces_.run);
   if (faces_.low) faces["low"] = *faces_.low;
   if (faces_.high) faces["high"] = *faces_.high;
   QJsonObject looks;
@@ -307,6 +331,8 @@ void Display::from_json(const QJsonObject& json) {
   faces_.statistic = faces["statistic"].toString(faces_.statistic);
   faces_.colour_map = faces["colour_map"].toString(faces_.colour_map);
   faces_.edges = faces["edges"].toBool(faces_.edges);
+  const Id run = static_cast<Id>(number(faces["run"], 0, 1e15, 0));
+  faces_.run = has_run(run) ? run : 0;
   faces_.low.reset();
   faces_.high.reset();
   if (faces["low"].isDouble()) faces_.low = faces["low"].toDouble();

@@ -30,6 +30,7 @@ enum class FaceColours { kStatistic, kVoxels, kPlain };
 struct FaceLook {
   FaceColours colours = FaceColours::kStatistic;
   QString statistic = QStringLiteral("variance");
+  Id run = 0;                       // whose numbers are shown; 0: what is known now
   QString colour_map;               // empty: the statistic's own
   std::optional<double> low, high;  // unset: 2nd and 98th percentile over all faults shown
   bool edges = false;
@@ -62,6 +63,9 @@ class Display final : public QObject {
   void set_samples(const SampleLook& look);
   const FaceLook& faces() const { return faces_; }
   void set_faces(const FaceLook& look);
+  // Its numbers on the faces, which are coloured by a statistic then; 0: what is known now, as where that run
+  // is deleted.
+  void show_run(Id run);
 
   bool is_visible(const Item& item) const { return !hidden_.contains({item.kind, item.id}); }
   void set_visible(const Item& item, bool visible);
@@ -144,6 +148,7 @@ class Display final : public QObject {
   void changed();        // anything that to_json() holds
 
  private:
+  bool has_run(Id run) const;
   SampleLook first_look(Id volume) const;
   void take_volume(Id volume);
 

@@ -8,6 +8,7 @@
 
 #include "storage/base/log.h"
 #include "ui/model/fault_commands.h"
+#include "ui/model/shown_numbers.h"
 
 namespace footwall::ui {
 namespace {
@@ -51,6 +52,7 @@ ProjectTree::ProjectTree(Document& document, Display& display, QObject* parent)
   connect(&display_, &Display::isosurfaces_changed, this, [this] { sync(kIsosurfaces); });
   connect(&document_, &Document::volumes_changed, this, [this] { sync(kIsosurfaces); });
   connect(&document_, &Document::runs_changed, this, [this] { sync(kRuns); });
+  connect(&display_, &Display::faces_changed, this, [this] { sync(kRuns); });
   connect(&document_, &Document::views_changed, this, [this] { sync(kViews); });
 }
 
@@ -98,14 +100,11 @@ std::vector<ProjectTree::Row> ProjectTree::rows_now(Group group) const {
         break;
       case kRuns:
         for (const project::RunRecord& run : document_.project().runs()) {
-          const QString name = QString::fromStdString(run.name);
           rows.push_back({.item = {.kind = Item::Kind::kRun, .id = run.id},
-                          .name = !name.isEmpty() ? name
-                                  : run.live      ? tr("live")
-                                                  : tr("run %1").arg(run.id),
+                          .name = name_of(run),
                           .detail = time_text(run.when),
                           .colour = {},
-                          .checked = false});
+                          .checked = run.id == display_.faces().run});
         }
         break;
       case kViews:
@@ -385,11 +384,15 @@ bool ProjectTree::rename_view(const QString& former, const QString& name) {
   return true;
 }
 
-// Of volumes one is shown: a check mark moves, and none can be taken away.
+// Of volumes one is shown: a check mark moves, and none can be taken away. Of runs one or none.
 bool ProjectTree::show(const Row& row, bool on) {
   if (row.item.kind == Item::Kind::kVolume) {
     if (on) display_.set_volume(row.item.id);
     return on;
+  }
+  if (row.item.kind == Item::Kind::kRun) {
+    display_.show_run(on ? row.item.id : 0);
+    return true;
   }
   if (row.item.kind == Item::Kind::kFault) {
     display_.set_visible(row.item, on);

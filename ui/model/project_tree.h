@@ -65,9 +65,7 @@ class ProjectTree final : public QAbstractItemModel {
     bool checked = false;
     friend bool operator==(const Row&, const Row&) = default;
   };
-  static bool has_check(Group group) {
-    return group == kVolumes || group == kFaults || group == kIsosurfaces;
-  }
+  static bool has_check(Group group) { return group != kViews; }
 
   std::vector<Row> rows_now(Group group) const;
   // Makes the rows of a group equal to those now, telling what came, went and changed.

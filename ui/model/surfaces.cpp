@@ -348,10 +348,18 @@ std::optional<std::pair<double, double>> Surfaces::range(const std::set<Id>& fau
                                                          const QString& statistic) const {
   auto& kept = state_->kept_range;
   if (kept && kept->faults == faults && kept->statistic == statistic) return kept->range;
-  std::vector<double> values;
+  std::vector<std::shared_ptr<const FaceNumbers>> known;
   for (const Id fault : faults) {
-    const auto known = numbers(fault, statistic);
-    if (known == nullptr) continue;
+    if (auto of_fault = numbers(fault, statistic)) known.push_back(std::move(of_fault));
+  }
+  kept = {faults, statistic, range_of(known, statistic)};
+  return kept->range;
+}
+
+std::optional<std::pair<double, double>> Surfaces::range_of(
+    std::span<const std::shared_ptr<const FaceNumbers>> numbers, const QString& statistic) const {
+  std::vector<double> values;
+  for (const auto& known : numbers) {
     for (std::size_t f = 0; f < known->values.size(); ++f) {
       if (known->stale[f] == 0 && std::isfinite(known->values[f])) values.push_back(known->values[f]);
     }
@@ -363,8 +371,7 @@ std::optional<std::pair<double, double>> Surfaces::range(const std::set<Id>& fau
   const std::optional<render::Range> range =
       is_signed ? render::symmetric_range(std::vector<float>(values.begin(), values.end()), kSignedPercentile)
                 : render::percentile_range(values);
-  kept = {faults, statistic, range ? std::optional(std::pair(range->lo, range->hi)) : std::nullopt};
-  return kept->range;
+  return range ? std::optional(std::pair(range->lo, range->hi)) : std::nullopt;
 }
 
 pillars::Options Surfaces::options(Id fault) const {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,9 @@ struct FaultSurface {
   std::size_t place_of(Id panel, std::int32_t n, std::size_t guess) const;
 };
 
-// How much its colours are worth, as ui.md's four states.
-enum class Freshness { kFresh, kFollowing, kStale, kPlain };
+// How much its colours are worth: four states of what is known now, and kKept of a stored run (ShownNumbers)
+// whose faces stand where they did.
+enum class Freshness { kFresh, kFollowing, kKept, kStale, kPlain };
 
 // A statistic of the faces of one surface, in its order.
 struct FaceNumbers {
@@ -71,6 +73,7 @@ class Surfaces final : public QObject {
   std::shared_ptr<const FaultSurface> surface(Id fault) const;
   // Why the fault has no surface, or what the user should know about it; empty where all is well.
   QString problem(Id fault) const;
+  // What is known now, also while views show a stored run (ShownNumbers).
   // name: of the project's statistics. Null where nothing of it is known.
   std::shared_ptr<const FaceNumbers> numbers(Id fault, const QString& statistic) const;
   Freshness freshness(Id fault, const QString& statistic) const;
@@ -79,6 +82,9 @@ class Surfaces final : public QObject {
   // 2nd to 98th percentile over all faults given, of values that are not stale; of a statistic with a sign (a
   // diverging colour map) the 98th of |value| and its opposite. Nothing where there are none.
   std::optional<std::pair<double, double>> range(const std::set<Id>& faults, const QString& statistic) const;
+  // The same of these numbers.
+  std::optional<std::pair<double, double>> range_of(
+      std::span<const std::shared_ptr<const FaceNumbers>> numbers, const QString& statistic) const;
 
   // Detail of a fault's triangulation, kept with its mesh. The surface is made anew.
   pillars::Options options(Id fault) const;

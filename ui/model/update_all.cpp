@@ -52,6 +52,7 @@ class Watch final : public QObject {
     });
   }
 
+  // At what is known now: a run that the views show says nothing of it.
   void look() {
     const Surfaces& surfaces = workbench_.surfaces;
     std::size_t fresh = 0, faces = 0;

@@ -48,7 +48,8 @@ Workbench::Workbench(project::Project opened, const EngineLink::Options& engine_
       line(document, display, picking),
       sections(document),
       engine(document, engine_options),
-      surfaces(document, &engine) {
+      surfaces(document, &engine),
+      shown_numbers(document, display, surfaces) {
   const auto stored = document.project().setting(kDisplaySetting);
   if (stored) display.from_json(QJsonDocument::fromJson(QByteArray::fromStdString(*stored)).object());
   if (!stored && document.survey()) display.set_exaggeration(fitting_exaggeration(*document.survey()));

@@ -13,6 +13,7 @@
 #include "ui/model/picking.h"
 #include "ui/model/section_reader.h"
 #include "ui/model/selection.h"
+#include "ui/model/shown_numbers.h"
 #include "ui/model/surfaces.h"
 
 namespace footwall::ui {
@@ -31,7 +32,8 @@ struct Workbench {
   LineDrawing line;
   SectionReader sections;
   EngineLink engine;
-  Surfaces surfaces;
+  Surfaces surfaces;           // what is known now
+  ShownNumbers shown_numbers;  // what views show of it, or of a run
   Jobs jobs;
   std::unique_ptr<EditSocket> edits;  // null where none are taken
   MouseChoice mouse;

@@ -119,6 +119,8 @@ InspectorPanel::InspectorPanel(Workbench& workbench, FindAction action, QWidget*
   connect(&workbench_.surfaces, &Surfaces::surfaces_changed, this, &InspectorPanel::soon);
   connect(&workbench_.surfaces, &Surfaces::numbers_changed, this, &InspectorPanel::soon);
   connect(&workbench_.surfaces, &Surfaces::offsets_changed, this, &InspectorPanel::soon);
+  connect(&workbench_.shown_numbers, &ShownNumbers::run_changed, this, &InspectorPanel::soon);
+  connect(&workbench_.shown_numbers, &ShownNumbers::numbers_changed, this, &InspectorPanel::soon);
   connect(histogram_, &Histogram::range_changed, this, [this](double low, double high) {
     FaceLook look = workbench_.display.faces();
     look.low = low;
@@ -197,15 +199,18 @@ void InspectorPanel::refresh_statistic() {
   const Id fault = shown_fault();
   if (fault == 0) return;
   const FaceLook& look = workbench_.display.faces();
-  statistic_->setText(look.statistic.toUpper().replace(QLatin1Char('_'), QLatin1Char(' ')));
+  const ShownNumbers& shown = workbench_.shown_numbers;
+  QString heading = look.statistic.toUpper().replace(QLatin1Char('_'), QLatin1Char(' '));
+  if (shown.is_of_run(look.statistic)) heading += QStringLiteral(" · ") + words_for(*shown.run());
+  statistic_->setText(heading);
   std::set<Id> faults;
   for (const Fault& one : workbench_.document.faults()) {
     if (workbench_.display.is_visible({.kind = Item::Kind::kFault, .id = one.record.id}))
       faults.insert(one.record.id);
   }
-  auto range = workbench_.surfaces.range(faults, look.statistic);
+  auto range = shown.range(faults, look.statistic);
   if (look.low && look.high) range = {*look.low, *look.high};
-  const auto numbers = workbench_.surfaces.numbers(fault, look.statistic);
+  const auto numbers = shown.numbers(fault, look.statistic);
   histogram_->show_values(numbers ? numbers->values : std::vector<double>(), range);
 }
 

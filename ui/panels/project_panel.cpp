@@ -147,7 +147,9 @@ void ProjectPanel::contextMenuEvent(QContextMenuEvent* event) {
     for (const char* id : {"edit.rename", "fault.colour", "fault.lock", "fault.merge", "fault.interpolate"})
       add(id);
     menu.addSeparator();
-  } else if (item && item.kind != Item::Kind::kRun) {
+  } else if (item.kind == Item::Kind::kRun) {
+    add("view.run");
+  } else if (item) {
     add("edit.rename");
   }
   if (item) {

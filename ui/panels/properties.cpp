@@ -130,8 +130,10 @@ void add_face(const Item& face, const Workbench& bench, Properties& to) {
   });
   if (found == surface->faces.end()) return;
   const auto place = static_cast<std::size_t>(found - surface->faces.begin());
+  if (const auto& run = bench.shown_numbers.run())
+    to.rows.emplace_back(tr("numbers"), tr("of %1; places as now").arg(words_for(*run)));
   for (const project::StatisticRecord& statistic : bench.surfaces.statistics()) {
-    const auto numbers = bench.surfaces.numbers(face.id, QString::fromStdString(statistic.name));
+    const auto numbers = bench.shown_numbers.numbers(face.id, QString::fromStdString(statistic.name));
     if (!numbers || place >= numbers->values.size()) continue;
     QString text = short_number(numbers->values[place]);
     if (const QString unit = unit_text(statistic.unit_rule); !unit.isEmpty()) text += QLatin1Char(' ') + unit;

@@ -20,12 +20,20 @@ QString state_text(Freshness state) {
       return words("fresh");
     case Freshness::kFollowing:
       return words("following");
+    case Freshness::kKept:
+      return words("of a run");
     case Freshness::kStale:
       return words("stale");
     case Freshness::kPlain:
       break;
   }
   return words("not computed");
+}
+
+double widest_of(const QStringList& lines, const QFontMetricsF& metrics) {
+  double width = 0;
+  for (const QString& one : lines) width = std::max(width, metrics.horizontalAdvance(one));
+  return width;
 }
 
 QImage blank(double width, double height, double pixel) {
@@ -38,28 +46,38 @@ QImage blank(double width, double height, double pixel) {
 
 }  // namespace
 
+QStringList lines_above(const ColourBar& bar) {
+  QStringList lines = bar.run.isEmpty() ? QStringList(state_text(bar.state)) : bar.run;
+  if (!bar.unit.isEmpty()) lines.front() += QStringLiteral(", ") + bar.unit;
+  if (!bar.run.isEmpty() && bar.state == Freshness::kStale) lines.append(words("hatched: moved since"));
+  return lines;
+}
+
+QString line_below(const ColourBar& bar) {
+  if (!bar.missing.isEmpty() || bar.state == Freshness::kPlain || bar.not_computed == 0) return bar.missing;
+  QString text = bar.run.isEmpty() ? QCoreApplication::translate("SceneView", "%n fault(s) not computed",
+                                                                 nullptr, bar.not_computed)
+                                   : QCoreApplication::translate("SceneView", "%n fault(s) not in this run",
+                                                                 nullptr, bar.not_computed);
+  return text.replace(QStringLiteral("(s)"), bar.not_computed == 1 ? QString() : QStringLiteral("s"));
+}
+
 QImage colour_bar_image(const ColourBar& bar, const SceneColours& colours, const QFont& font, double pixel) {
   QFont small = font;
   small.setPixelSize(
       std::max(9, font.pixelSize() > 0 ? font.pixelSize() - 1 : QFontInfo(font).pixelSize() - 1));
   const QFontMetricsF metrics(small);
   const double line = std::ceil(metrics.height());
-  const QString note =
-      bar.unit.isEmpty() ? state_text(bar.state) : state_text(bar.state) + QStringLiteral(", ") + bar.unit;
+  const QStringList notes = lines_above(bar);
   constexpr double kPad = 10;
   constexpr double kBar = 14;
   constexpr double kLong = 132;
   constexpr int kTicks = 5;
   const bool has_scale = bar.state != Freshness::kPlain;
-  QString below = bar.missing;
-  if (has_scale && bar.not_computed > 0) {
-    below = QCoreApplication::translate("SceneView", "%n fault(s) not computed", nullptr, bar.not_computed);
-    below.replace(QStringLiteral("(s)"), bar.not_computed == 1 ? QString() : QStringLiteral("s"));
-  }
-  const double width =
-      2 * kPad + std::max({metrics.horizontalAdvance(bar.title), metrics.horizontalAdvance(note),
-                           metrics.horizontalAdvance(below), 88.0});
-  const double top = kPad + 2 * line + 6;
+  const QString below = line_below(bar);
+  const double width = 2 * kPad + std::max({metrics.horizontalAdvance(bar.title), widest_of(notes, metrics),
+                                            metrics.horizontalAdvance(below), 88.0});
+  const double top = kPad + (1 + static_cast<double>(notes.size())) * line + 6;
   const double scale = (has_scale ? kLong + kPad : 0) + (has_scale && bar.has_undefined ? line + 4 : 0);
   const double height = top + scale + (below.isEmpty() ? 0 : line + 4);
   QImage image = blank(width, height, pixel);
@@ -74,11 +92,12 @@ QImage colour_bar_image(const ColourBar& bar, const SceneColours& colours, const
   painter.setPen(colours.text);
   painter.drawText(QPointF(kPad, kPad + metrics.ascent()), bar.title);
   painter.setPen(colours.dim);
-  painter.drawText(QPointF(kPad, kPad + line + metrics.ascent()), note);
+  for (qsizetype n = 0; n < notes.size(); ++n)
+    painter.drawText(QPointF(kPad, kPad + static_cast<double>(n + 1) * line + metrics.ascent()), notes[n]);
   painter.drawText(QPointF(kPad, top + scale + metrics.ascent() - 4), below);
   if (!has_scale) return image;
   painter.setRenderHint(QPainter::Antialiasing, false);
-  const bool hatched = bar.state == Freshness::kStale;
+  const bool hatched = bar.state == Freshness::kStale && bar.run.isEmpty();
   for (int y = 0; y < static_cast<int>(kLong * pixel); ++y) {
     const double share = 1 - (y + 0.5) / (kLong * pixel);
     const render::Rgba c = bar.colours->table()[static_cast<std::size_t>(share * 255.999)];

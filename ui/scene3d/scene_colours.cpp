@@ -51,7 +51,8 @@ FaceColouring SceneDrawing::colouring_of(Id fault) const {
   if (own.isValid()) how.plain_colour = {own.redF(), own.greenF(), own.blueF()};
   const Freshness state = source.freshness(fault, look.statistic);
   how.plain = look.colours != FaceColours::kStatistic || state == Freshness::kPlain || !range_;
-  how.hatched = state == Freshness::kStale;
+  // Of a run the faces that have moved since are hatched, and no others.
+  how.hatched = state == Freshness::kStale && !workbench_.shown_numbers.is_of_run(look.statistic);
   if (look.colours == FaceColours::kVoxels && frame_) {
     const SampleLook& samples = workbench_.display.samples();
     const SampleColours as_in_sections = sample_colours();
@@ -117,6 +118,8 @@ std::optional<ColourBar> SceneDrawing::voxel_bar() const {
 // Why no face has a value of a statistic.
 QString SceneDrawing::missing_for(const QString& statistic) const {
   const auto tr = [](const char* words) { return QCoreApplication::translate("SceneView", words); };
+  if (workbench_.shown_numbers.is_of_run(statistic))
+    return workbench_.shown_numbers.is_reading() ? tr("is being read") : tr("not in this run");
   const auto& survey = workbench_.document.survey();
   constexpr std::array kInMetres{"dip", "area", "metres_along_normal", "offset"};
   const bool in_metres =
@@ -167,6 +170,10 @@ std::optional<ColourBar> SceneDrawing::colour_bar() const {
     }
   }
   if (shown == 0) return {};
+  if (workbench_.shown_numbers.is_of_run(look.statistic)) {
+    bar.run = workbench_.shown_numbers.origin();
+    if (workbench_.shown_numbers.is_reading()) bar.missing = missing_for(look.statistic);
+  }
   if (range_) {
     bar.range = {range_->first, range_->second};
   } else {

@@ -87,6 +87,11 @@ void SceneView::Private::connect_models() {
                      drawing.numbers_changed(faults);
                      changed();
                    });
+  QObject::connect(&workbench.shown_numbers, &ShownNumbers::numbers_changed, &view,
+                   [this](const std::set<Id>& faults) {
+                     drawing.numbers_changed(faults);
+                     changed();
+                   });
   QObject::connect(&workbench.surfaces, &Surfaces::offsets_changed, &view,
                    [this](const std::set<Id>& faults) {
                      if (!comes_late(workbench.display.faces().statistic)) return;

@@ -31,10 +31,10 @@ SceneView::SceneView(Workbench& workbench, QWidget* parent)
   Workbench& models = workbench;
   set_source(
       {[&models](Id fault) { return models.surfaces.surface(fault); },
-       [&models](Id fault, const QString& name) { return models.surfaces.numbers(fault, name); },
-       [&models](Id fault, const QString& name) { return models.surfaces.freshness(fault, name); },
+       [&models](Id fault, const QString& name) { return models.shown_numbers.numbers(fault, name); },
+       [&models](Id fault, const QString& name) { return models.shown_numbers.freshness(fault, name); },
        [&models](const std::set<Id>& faults, const QString& name) {
-         return models.surfaces.range(faults, name);
+         return models.shown_numbers.range(faults, name);
        },
        [&models] { return models.surfaces.statistics(); },
        [&models](const PictureRequest& request) { return models.engine.draw(request); },

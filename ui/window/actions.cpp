@@ -124,6 +124,7 @@ unsigned Actions::met() const {
           kind == Item::Kind::kIsosurface || kind == Item::Kind::kView || kind == Item::Kind::kVolume ||
           kind == Item::Kind::kRun,
       kAnything);
+  add(kind == Item::Kind::kRun || bench->display.faces().run != 0, kRun);
   const Item::Kind named = selection.owner().kind;
   add(named == Item::Kind::kFault || named == Item::Kind::kVolume || named == Item::Kind::kIsosurface ||
           named == Item::Kind::kView,

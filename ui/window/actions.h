@@ -38,6 +38,7 @@ enum Needs : unsigned {
   kActive = 262144,    // picks go to a fault
   kShiftable = 32768,  // with the Select tool a face or pillars: what a suggested shift is of
   kLine = 1 << 20,     // the active view is a section along a line
+  kRun = 1 << 21,      // a run is selected, or the faces show one
 };
 
 struct ActionRow {

@@ -32,7 +32,8 @@ Id fault_of_tour(const Selection& selection) {
 
 std::vector<TourStop> stops_of(const Workbench& bench, Id fault, Tour tour) {
   const auto surface = bench.surfaces.surface(fault);
-  // In voxels, which are known in a time survey without a velocity, too.
+  // What is known now, also while the views show a run: the way leads to faces as they are. In voxels, which
+  // are known in a time survey without a velocity, too.
   const auto numbers = bench.surfaces.numbers(
       fault, tour == Tour::kContrast ? QStringLiteral("contrast") : QStringLiteral("offset_voxels"));
   if (!surface || !numbers) return {};

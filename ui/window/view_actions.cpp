@@ -157,6 +157,20 @@ bool is_coloured_by(MainWindow& window, const char* statistic) {
   return look.colours == FaceColours::kStatistic && look.statistic == QLatin1String(statistic);
 }
 
+// The run selected in the project panel; where that is shown already, or none is selected, back to what is
+// known now.
+void toggle_run(MainWindow& window) {
+  const Item& selected = window.workbench()->selection.current();
+  const bool another = selected.kind == Item::Kind::kRun && selected.id != display(window).faces().run;
+  display(window).show_run(another ? selected.id : 0);
+}
+
+bool is_run_shown(MainWindow& window) {
+  const Item& selected = window.workbench()->selection.current();
+  const Id shown = display(window).faces().run;
+  return shown != 0 && (selected.kind != Item::Kind::kRun || selected.id == shown);
+}
+
 // In a time survey without a velocity offsets are known in voxels alone.
 bool offsets_are_metric(MainWindow& window) {
   const Document& document = window.workbench()->document;
@@ -351,6 +365,9 @@ std::vector<ActionRow> look_actions() {
        QT_TRANSLATE_NOOP("Actions", "Faces in the colour of their fault"), kProject,
        [](MainWindow& window) { colour_by(window, FaceColours::kPlain); },
        [](MainWindow& window) { return display(window).faces().colours == FaceColours::kPlain; }},
+      {"view.run", M::kView, QT_TRANSLATE_NOOP("Actions", "Show &run"), "Shift+R", "run",
+       QT_TRANSLATE_NOOP("Actions", "Faces show the numbers of the selected run, or those known now again"),
+       kProject | kRun, toggle_run, is_run_shown},
   };
 }
 

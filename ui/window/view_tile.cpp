@@ -163,8 +163,26 @@ void ViewTile::add_scene_controls(QHBoxLayout& bar) {
             [this, factor] { workbench_.display.set_exaggeration(factor); });
   }
   exaggeration_->setMenu(menu);
+  run_ = text_button(bar_, {});
+  run_->setObjectName(QStringLiteral("shown-run"));
+  connect(run_, &QToolButton::clicked, this, [this] { workbench_.display.show_run(0); });
+  connect(&workbench_.shown_numbers, &ShownNumbers::run_changed, this, &ViewTile::show_run);
+  show_run();
+  bar.addWidget(run_);
   bar.addWidget(perspective_);
   bar.addWidget(exaggeration_);
+}
+
+// As long as the faces show a run, which run it is; a click goes back to what is known now.
+void ViewTile::show_run() {
+  const auto& run = workbench_.shown_numbers.run();
+  run_->setVisible(run.has_value());
+  if (!run) return;
+  constexpr int kWidest = 160;
+  const QString words = words_for(*run);
+  run_->setText(run_->fontMetrics().elidedText(words, Qt::ElideRight, kWidest) + QStringLiteral("  ×"));
+  run_->setToolTip(
+      tr("Faces show the numbers of %1. A click shows those known now again (Shift+R).").arg(words));
 }
 
 QString ViewTile::title() const {

@@ -40,6 +40,7 @@ class ViewTile final : public QFrame {
   QWidget* make_import_strip();
   void change_section(void (*change)(Display::ShownSection& shown, bool on), bool on);
   void update_title();
+  void show_run();
 
   Workbench& workbench_;
   Id section_ = 0;
@@ -52,6 +53,7 @@ class ViewTile final : public QFrame {
   QToolButton* ends_ = nullptr;
   QToolButton* perspective_ = nullptr;
   QToolButton* exaggeration_ = nullptr;
+  QToolButton* run_ = nullptr;
   QWidget* view_ = nullptr;
   QWidget* import_ = nullptr;
 };

@@ -1,7 +1,9 @@
 #include <QSignalSpy>
 #include <QTest>
 
+#include "ui/made_runs.h"
 #include "ui/scene/made_scene.h"
+#include "ui/scene3d/panels.h"
 #include "ui/test_class.h"
 
 namespace footwall::ui {
@@ -29,6 +31,8 @@ class SceneTest final : public QObject {
  private Q_SLOTS:
   void shows_faults_planes_and_box();
   void says_how_old_colours_are();
+  void shows_a_stored_run_and_now_again();
+  void the_colour_bar_names_the_run();
   void merges_pictures_by_depth();
   void drops_pictures_of_another_camera();
   void exports_in_tiles();
@@ -69,6 +73,68 @@ void SceneTest::says_how_old_colours_are() {
   scene.numbers[scene.first_fault()] = following;
   QVERIFY(differing(fresh, show(Freshness::kFollowing, "following"), 8) > 3000);
   QCOMPARE(differing(fresh, show(Freshness::kFresh, "still_marked"), 8) > 3000, true);  // each face says so
+}
+
+void SceneTest::shows_a_stored_run_and_now_again() {
+  const SampleProject sample;
+  Workbench bench(sample.open(), {});
+  while (!bench.display.sections().empty()) bench.display.remove_section(bench.display.sections().front().id);
+  QVERIFY(has_surfaces(bench));
+  const Id low = add_made_run(bench, "low", [](std::size_t) { return 0.1; });
+  const Id none = add_made_run(bench, "none", [](std::size_t) { return std::nan(""); });
+  add_made_run(bench, "now", [](std::size_t) { return 0.9; });
+  Q_EMIT bench.document.runs_changed();
+  FaceLook look = bench.display.faces();
+  look.low = 0;
+  look.high = 1;
+  bench.display.set_faces(look);
+  SceneView view(bench);
+  view.setPalette(MadeScene::dark());
+  view.resize(900, 700);
+  view.show();
+  const Id fault = bench.document.faults().front().record.id;
+  QTRY_VERIFY(bench.surfaces.numbers(fault, QStringLiteral("variance")) != nullptr);
+  const auto shown = [&](Id run) {
+    bench.display.show_run(run);
+    const bool there = QTest::qWaitFor(
+        [&] { return !bench.shown_numbers.is_reading() && bench.surfaces.is_settled() && view.is_settled(); },
+        30000);
+    return there ? view.grab_frame().convertToFormat(QImage::Format_RGB32) : QImage();
+  };
+  const QImage now = shown(0);
+  const QImage of_low = shown(low);
+  const QImage of_none = shown(none);
+  QVERIFY(differing(now, of_low) > 5000);
+  QVERIFY(differing(of_low, of_none) > 5000);
+  QVERIFY(differing(now, of_none) > 5000);
+  QVERIFY(differing(now, shown(0)) < 200);
+}
+
+void SceneTest::the_colour_bar_names_the_run() {
+  ColourBar bar;
+  bar.title = QStringLiteral("variance");
+  bar.unit = QStringLiteral("amplitude²");
+  bar.colours = &render::ColourMap::named("viridis");
+  QCOMPARE(lines_above(bar), QStringList("fresh, amplitude²"));
+  const SceneColours colours;
+  const QImage fresh = colour_bar_image(bar, colours, QFont(), 1);
+  bar.run = {QStringLiteral("run base"), QStringLiteral("2026-11-23 14:02"), QStringLiteral("of edges")};
+  for (const Freshness state : {Freshness::kKept, Freshness::kStale, Freshness::kPlain}) {
+    bar.state = state;
+    const QString all = lines_above(bar).join(u'|');
+    QVERIFY(all.startsWith(QStringLiteral("run base, amplitude²|2026-11-23 14:02|of edges")));
+    QCOMPARE(all.contains(QStringLiteral("moved since")), state == Freshness::kStale);
+    QVERIFY(!all.contains(QStringLiteral("fresh")) && !all.contains(QStringLiteral("following")));
+  }
+  bar.state = Freshness::kKept;
+  QVERIFY(colour_bar_image(bar, colours, QFont(), 1).height() > fresh.height());  // has room for the lines
+  bar.not_computed = 2;
+  QCOMPARE(line_below(bar), QStringLiteral("2 faults not in this run"));
+  bar.missing = QStringLiteral("is being read");  // they may be in it
+  QCOMPARE(line_below(bar), QStringLiteral("is being read"));
+  bar.state = Freshness::kPlain;
+  bar.missing = QStringLiteral("not in this run");
+  QCOMPARE(line_below(bar), QStringLiteral("not in this run"));
 }
 
 void SceneTest::merges_pictures_by_depth() {

@@ -5,10 +5,12 @@
 #include <QMenuBar>
 #include <QSignalSpy>
 #include <QTest>
+#include <QToolButton>
 #include <algorithm>
 #include <map>
 #include <set>
 
+#include "ui/made_runs.h"
 #include "ui/model/fault_commands.h"
 #include "ui/sample_project.h"
 #include "ui/test_class.h"
@@ -18,6 +20,7 @@
 #include "ui/window/main_window.h"
 #include "ui/window/theme.h"
 #include "ui/window/view_area.h"
+#include "ui/window/view_tile.h"
 
 namespace footwall::ui {
 
@@ -35,6 +38,7 @@ class ActionsTest final : public QObject {
   void keys_go_from_pillar_to_pillar_and_from_node_to_node();
   void names_and_runs_need_something_to_name_and_run();
   void deleted_views_and_isosurfaces_are_put_back();
+  void a_run_is_shown_by_key_and_left_by_a_click();
   void icons_follow_the_theme();
   void help_lists_every_action();
   void the_guide_has_every_action_with_its_keys();
@@ -327,6 +331,48 @@ void ActionsTest::deleted_views_and_isosurfaces_are_put_back() {
   QVERIFY(window.banners().press(banner, 1));
   remove({.kind = Item::Kind::kFault, .id = bench.document.faults().front().record.id});
   QVERIFY(!window.banners().has(banner));
+}
+
+void ActionsTest::a_run_is_shown_by_key_and_left_by_a_click() {
+  const SampleProject sample;
+  MainWindow window({});
+  open_with_the_keys(window, sample);
+  Workbench& bench = *window.workbench();
+  const auto runs = add_two_runs(bench);
+  QVERIFY(runs);
+  const QAction* action = window.actions().action(QStringLiteral("view.run"));
+  auto* sign = window.views()->scene()->findChild<QToolButton*>(QStringLiteral("shown-run"));
+  QVERIFY(sign != nullptr && !sign->isVisible());
+  QVERIFY(!action->isEnabled());
+  bench.selection.select({.kind = Item::Kind::kRun, .id = runs->base});
+  QVERIFY(action->isEnabled() && !action->isChecked());
+  QTest::keyClick(&window, Qt::Key_R, Qt::ShiftModifier);
+  QCOMPARE(bench.display.faces().run, runs->base);
+  QVERIFY(action->isChecked());
+  QVERIFY(sign->isVisible());
+  QVERIFY(sign->text().contains(QStringLiteral("run base")));
+  // Another one that is selected takes its place.
+  bench.selection.select({.kind = Item::Kind::kRun, .id = runs->newer});
+  QVERIFY(!action->isChecked());
+  QTest::keyClick(&window, Qt::Key_R, Qt::ShiftModifier);
+  QCOMPARE(bench.display.faces().run, runs->newer);
+  QTest::keyClick(&window, Qt::Key_R, Qt::ShiftModifier);
+  QCOMPARE(bench.display.faces().run, Id{0});
+  QVERIFY(!sign->isVisible());
+  bench.display.show_run(runs->base);
+  QTest::keyClick(&window, Qt::Key_Escape);
+  QCOMPARE(bench.display.faces().run, runs->base);
+  // The tour goes by the contrast of now, which falls where that of the run rises.
+  const Id fault = bench.document.faults().front().record.id;
+  bench.selection.select({.kind = Item::Kind::kFault, .id = fault});
+  QTRY_VERIFY(!bench.shown_numbers.is_reading());
+  QTest::keyClick(&window, Qt::Key_W);
+  QCOMPARE(bench.selection.current().kind, Item::Kind::kFace);
+  QCOMPARE(bench.selection.current().number, bench.surfaces.surface(fault)->faces.back().n);
+  QVERIFY(action->isEnabled() && action->isChecked());  // the way back, whatever is selected
+  QTest::mouseClick(sign, Qt::LeftButton);
+  QCOMPARE(bench.display.faces().run, Id{0});
+  QVERIFY(!action->isEnabled());
 }
 
 void ActionsTest::icons_follow_the_theme() {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/made_runs.h"
 #include "ui/model/fault_commands.h"
 #include "ui/model/tour.h"
 #include "ui/model/volume_spread.h"
@@ -58,6 +59,7 @@ class PanelsTest final : public QObject {
   void what_has_ended_is_cleared();
   void several_things_are_counted();
   void what_is_taken_away_is_not_inspected();
+  void a_run_that_is_shown_is_inspected();
   void an_isosurface_is_told();
   void a_clip_belongs_to_a_range();
   void handles_set_the_clip_of_the_sections();
@@ -191,6 +193,36 @@ void PanelsTest::several_things_are_counted() {
   QCOMPARE(inspector.shown().title, QStringLiteral("2 faults"));
   QCOMPARE(inspector.shown().rows.front(),
            (std::pair{name, QStringLiteral("all of %1 pillars").arg(first.pillars.size())}));
+}
+
+void PanelsTest::a_run_that_is_shown_is_inspected() {
+  const SampleProject sample;
+  Workbench bench(sample.open(), {});
+  const auto runs = add_two_runs(bench);
+  QVERIFY(runs);
+  InspectorPanel inspector(bench, no_action);
+  inspector.resize(300, 900);
+  inspector.show();
+  const Id fault = bench.document.faults().front().record.id;
+  const project::MeshFace face = bench.surfaces.surface(fault)->faces[1];
+  bench.selection.select({.kind = Item::Kind::kFace, .id = fault, .panel = face.panel, .number = face.n});
+  const auto variance = [&] {
+    for (const auto& [name, value] : inspector.shown().rows) {
+      if (name == QStringLiteral("variance")) return value.section(u' ', 0, 0).toDouble();
+    }
+    return 0.0;
+  };
+  QCOMPARE(variance(), TwoRuns::of_newer(1));
+  QVERIFY(says(inspector, QStringLiteral("VARIANCE")) && !says(inspector, QStringLiteral("run base")));
+  QVERIFY(inspector.histogram().range().second < 0 || inspector.histogram().range().first < 0);
+  bench.display.show_run(runs->base);
+  QTRY_COMPARE(variance(), TwoRuns::of_base(1));
+  QTRY_VERIFY(inspector.histogram().range().first >= 0 && inspector.histogram().range().second > 2);
+  QVERIFY(says(inspector, QStringLiteral("VARIANCE · run base")));
+  QVERIFY(says(inspector, QStringLiteral("of run base")));
+  bench.display.show_run(0);
+  QTRY_COMPARE(variance(), TwoRuns::of_newer(1));
+  QVERIFY(!says(inspector, QStringLiteral("run base")));
 }
 
 void PanelsTest::what_is_taken_away_is_not_inspected() {

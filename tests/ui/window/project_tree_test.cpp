@@ -52,6 +52,7 @@ class ProjectTreeTest final : public QObject {
   void names_the_fault_of_what_is_selected();
   void a_volume_is_deleted_after_a_question();
   void a_run_is_deleted_after_a_question();
+  void one_run_is_shown_or_none();
   void a_click_on_nothing_leaves_the_active_fault();
 };
 
@@ -357,6 +358,40 @@ void ProjectTreeTest::a_run_is_deleted_after_a_question() {
   QTRY_COMPARE(panel.tree().rowCount(runs), 1);
   QCOMPARE(bench->document.project().runs().front().name, std::string("second"));
   QTRY_COMPARE(bench->jobs.running(), 0);
+}
+
+void ProjectTreeTest::one_run_is_shown_or_none() {
+  const SampleProject sample;
+  const auto bench = open(sample);
+  project::RunRecord run;
+  run.name = "first";
+  const Id first = bench->document.store().add_run(run, {});
+  run.name = "second";
+  const Id second = bench->document.store().add_run(run, {});
+  ProjectPanel panel(*bench, [](const QString&) -> QAction* { return nullptr; });
+  ProjectTree& tree = panel.tree();
+  QAbstractItemModelTester tester(&tree, QAbstractItemModelTester::FailureReportingMode::QtTest);
+  panel.show();
+  const auto row = [&](Id id) { return tree.index_of({.kind = Item::Kind::kRun, .id = id}); };
+  const auto checked = [&](Id id) { return row(id).data(Qt::CheckStateRole).toInt() == Qt::Checked; };
+  QVERIFY(!checked(first) && !checked(second));
+  // Space, as for a volume; the mark moves, and can be taken away.
+  panel.setCurrentIndex(row(first));
+  QTest::keyClick(&panel, Qt::Key_Space);
+  QCOMPARE(bench->display.faces().run, first);
+  QVERIFY(checked(first));
+  panel.setCurrentIndex(row(second));
+  QTest::keyClick(&panel, Qt::Key_Space);
+  QCOMPARE(bench->display.faces().run, second);
+  QVERIFY(!checked(first) && checked(second));
+  QTest::keyClick(&panel, Qt::Key_Space);
+  QCOMPARE(bench->display.faces().run, Id{0});
+  QVERIFY(!checked(first) && !checked(second));
+  QVERIFY(tree.setData(row(first), Qt::Checked, Qt::CheckStateRole));
+  bench->document.store().delete_run(first);
+  Q_EMIT bench->document.runs_changed();
+  QCOMPARE(bench->display.faces().run, Id{0});
+  QVERIFY(!checked(second));
 }
 
 void ProjectTreeTest::a_click_on_nothing_leaves_the_active_fault() {
