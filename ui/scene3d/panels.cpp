@@ -30,6 +30,13 @@ QString state_text(Freshness state) {
   return words("not computed");
 }
 
+// A run's name may be long; the unit at its end stays.
+QStringList shortened(QStringList lines, const QFontMetricsF& metrics) {
+  constexpr double kWidest = 220;
+  for (QString& one : lines) one = metrics.elidedText(one, Qt::ElideMiddle, kWidest);
+  return lines;
+}
+
 double widest_of(const QStringList& lines, const QFontMetricsF& metrics) {
   double width = 0;
   for (const QString& one : lines) width = std::max(width, metrics.horizontalAdvance(one));
@@ -68,7 +75,7 @@ QImage colour_bar_image(const ColourBar& bar, const SceneColours& colours, const
       std::max(9, font.pixelSize() > 0 ? font.pixelSize() - 1 : QFontInfo(font).pixelSize() - 1));
   const QFontMetricsF metrics(small);
   const double line = std::ceil(metrics.height());
-  const QStringList notes = lines_above(bar);
+  const QStringList notes = shortened(lines_above(bar), metrics);
   constexpr double kPad = 10;
   constexpr double kBar = 14;
   constexpr double kLong = 132;

@@ -10,6 +10,7 @@
 #include "engine/tasks/add_volume.h"
 #include "engine/tasks/extract_run.h"
 #include "engine/tasks/volume_sources.h"
+#include "ui/made_runs.h"
 #include "ui/model/accept_shift.h"
 #include "ui/model/engine_link.h"
 #include "ui/model/fault_commands.h"
@@ -53,6 +54,7 @@ class LiveColoursTest final : public QObject {
   void update_all_computes_and_keeps();
   void an_update_can_be_cancelled();
   void numbers_of_another_volume_are_stale();
+  void an_update_goes_by_what_is_known_now_while_a_run_is_shown();
 };
 
 void LiveColoursTest::surfaces_are_made_without_an_engine() {
@@ -328,6 +330,37 @@ void LiveColoursTest::numbers_of_another_volume_are_stale() {
   QCOMPARE(runs.size(), std::size_t{2});
   QCOMPARE(runs[1].volume, std::string("another"));
   QCOMPARE(bench.document.project().fault_statistics(runs[0].id, fault).statistics.at("variance"), before);
+}
+
+void LiveColoursTest::an_update_goes_by_what_is_known_now_while_a_run_is_shown() {
+  const SampleProject sample;
+  Workbench bench(sample.open(), {.ranks = 1, .connection = {}});
+  QVERIFY(has_surfaces(bench));
+  const auto made_up = [](std::size_t face) { return 1000 + static_cast<double>(face); };
+  const Id run = add_made_run(bench, "made up", made_up);
+  bench.display.show_run(run);
+  const Id fault = bench.document.faults()[0].record.id;
+  const survey::Pillar& pillar = bench.document.faults()[0].pillars.front();
+  QVERIFY(bench.document.edit("Move", [&](project::Interpretation& now) {
+    now.move_pillar(pillar.id, {40, 0, 0});
+  }));
+  QSignalSpy ended(&bench.jobs, &Jobs::finished);
+  start_update(bench);
+  QVERIFY(ended.wait(kPatience));
+  QCOMPARE(ended[0][1].value<Jobs::State>(), Jobs::State::kDone);
+  // The engine has answered; what is shown is the run's still, and old where the faces moved.
+  QCOMPARE(bench.display.faces().run, run);
+  QCOMPARE(bench.surfaces.freshness(fault, "variance"), Freshness::kFresh);
+  QCOMPARE(bench.shown_numbers.freshness(fault, "variance"), Freshness::kStale);
+  const auto shown = bench.shown_numbers.numbers(fault, "variance");
+  QCOMPARE(std::ranges::count_if(shown->values, [](double value) { return value < 1000; }), 0);
+  // The live run has the engine's numbers and none of the run's.
+  const project::RunRecord live = bench.document.project().run(std::nullopt);
+  QVERIFY(live.live && live.id != run);
+  const auto stored = bench.document.project().fault_statistics(live.id, fault).statistics.at("variance");
+  QCOMPARE(stored.size(), shown->values.size());
+  QCOMPARE(std::ranges::count_if(stored, [](double value) { return value >= 1000; }), 0);
+  QVERIFY(std::ranges::any_of(stored, [](double value) { return value > 0; }));
 }
 
 static const RegisterTest<LiveColoursTest> kRegistered;

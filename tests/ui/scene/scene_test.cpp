@@ -128,6 +128,8 @@ void SceneTest::the_colour_bar_names_the_run() {
   }
   bar.state = Freshness::kKept;
   QVERIFY(colour_bar_image(bar, colours, QFont(), 1).height() > fresh.height());  // has room for the lines
+  bar.run.front() = QString(200, u'n');
+  QVERIFY(colour_bar_image(bar, colours, QFont(), 1).width() < 300);
   bar.not_computed = 2;
   QCOMPARE(line_below(bar), QStringLiteral("2 faults not in this run"));
   bar.missing = QStringLiteral("is being read");  // they may be in it
