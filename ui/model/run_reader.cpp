@@ -1,5 +1,7 @@
 #include "ui/model/run_reader.h"
 
+#include <exception>
+#include <string>
 #include <utility>
 
 #include "engine/extract/fault_side.h"
@@ -66,6 +68,9 @@ void RunReader::read_all(std::uint64_t request, std::int64_t run) {
     events_.ended(request, std::nullopt);
   } catch (const Error& error) {
     events_.ended(request, error);
+  } catch (const std::exception& error) {
+    events_.ended(request,
+                  Error(ErrorCode::kMemory, std::string("the run could not be read: ") + error.what()));
   }
 }
 

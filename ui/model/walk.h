@@ -7,8 +7,8 @@
 
 namespace footwall::ui {
 
-// The fault's pillars in their order along it, and those that run across it (a time slice's) likewise; those of
-// a fault with fewer than three in the order they were made.
+// The fault's pillars in their order along it, and those that run across it (a time slice's) likewise; those
+// of a fault with fewer than three in the order they were made.
 std::vector<Id> pillars_along(const Fault& fault, const survey::Geometry& survey);
 
 // The pillar `by` (1 or -1) beside the one that is selected, or that a selected node belongs to; where none
