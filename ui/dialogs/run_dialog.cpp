@@ -44,6 +44,7 @@ RunDialog::RunDialog(Workbench& workbench, QWidget* parent) : QDialog(parent), w
   fault_ = fault_box(workbench, true, true, this);
   offer_selected();
   name_ = new QLineEdit(this);
+  name_->setFocus();
   name_->setObjectName(QStringLiteral("name"));
   name_->setPlaceholderText(tr("run and its number"));
 

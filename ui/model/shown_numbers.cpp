@@ -24,8 +24,10 @@ QString name_of(const project::RunRecord& run) {
 }
 
 QString words_for(const project::RunRecord& run) {
-  return run.name.empty() && !run.live ? name_of(run)
-                                       : QCoreApplication::translate("Runs", "run %1").arg(name_of(run));
+  const QString name = name_of(run);
+  // As runs are called that got no name.
+  if (name.startsWith(QLatin1String("run "))) return name;
+  return QCoreApplication::translate("Runs", "run %1").arg(name);
 }
 
 ShownNumbers::ShownNumbers(Document& document, Display& display, const Surfaces& surfaces, QObject* parent)

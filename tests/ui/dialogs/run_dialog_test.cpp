@@ -46,6 +46,7 @@ void RunDialogTest::offers_what_is_built_with_auto_first() {
   dialog.findChild<QToolButton*>()->setChecked(true);
   dialog.show();
   QVERIFY(QTest::qWaitForWindowExposed(&dialog));
+  QCOMPARE(dialog.focusWidget()->objectName(), QStringLiteral("name"));
   keep_picture(dialog, QStringLiteral("run"));
 }
 

@@ -258,6 +258,9 @@ void ShownNumbersTest::says_which_run_it_is() {
   project::RunRecord nameless;
   nameless.id = 7;
   QCOMPARE(words_for(nameless), QStringLiteral("run 7"));
+  project::RunRecord numbered;
+  numbered.name = "run 2";  // as jobs call a run without a name
+  QCOMPARE(words_for(numbered), QStringLiteral("run 2"));
   nameless.live = true;
   QCOMPARE(words_for(nameless), QStringLiteral("run live"));
 }
