@@ -58,6 +58,11 @@ ViewArea::ViewArea(Workbench& workbench, ViewFactories factories, const QJsonObj
   connect(qApp, &QApplication::focusChanged, this, [this](QWidget*, QWidget* now) { focus_moved(now); });
 }
 
+// The views go after the members here, and the one with the keys tells that it has lost them.
+ViewArea::~ViewArea() {
+  qApp->disconnect(this);
+}
+
 Id ViewArea::active_section() const {
   return active_ == nullptr ? 0 : active_->section();
 }

@@ -23,6 +23,7 @@ class ViewArea final : public QWidget {
   // layout: of an earlier layout(); what it does not know, or names wrongly, gets its usual place.
   ViewArea(Workbench& workbench, ViewFactories factories, const QJsonObject& layout,
            QWidget* parent = nullptr);
+  ~ViewArea() override;
 
   // The tile that keys go to: the one that had the focus last. Null where there are none.
   ViewTile* active() const { return active_; }
