@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include <QCoreApplication>
+#include <QRegularExpression>
 #include <cstdio>
-#include <regex>
 #include <span>
 #include <string>
 
@@ -24,8 +24,9 @@ using namespace footwall::ui;
 
 // Without the times of day, which differ from run to run.
 std::string digest(const std::filesystem::path& path) {
-  static const std::regex time("'[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9:]{8}Z'");
-  const std::string text = std::regex_replace(interpretation_text(path), time, "''");
+  static const QRegularExpression time(QStringLiteral("'[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9:]{8}Z'"));
+  const std::string text =
+      QString::fromStdString(interpretation_text(path)).replace(time, QStringLiteral("''")).toStdString();
   return fmt::format("{:016x}", hash64(std::as_bytes(std::span(text))));
 }
 
