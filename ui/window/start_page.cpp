@@ -16,6 +16,7 @@ namespace footwall::ui {
 namespace {
 
 constexpr const char* kRecentSetting = "recent";
+constexpr int kRowHeight = 24;
 constexpr qsizetype kRecentCount = 12;
 constexpr int kColumnWidth = 560;
 
@@ -119,12 +120,13 @@ void StartPage::list_recent() {
     auto* item = new QListWidgetItem(QStringLiteral("%1    %2").arg(file.fileName(), file.path()), recent_);
     item->setData(Qt::UserRole, path);
     item->setToolTip(path);
+    item->setSizeHint({0, kRowHeight});
     if (!file.exists()) item->setText(tr("%1    (not there)").arg(path));
   }
   const bool any = recent_->count() > 0;
   recent_title_->setVisible(any);
   recent_->setVisible(any);
-  recent_->setFixedHeight(std::max(1, recent_->count()) * 24 + 8);
+  recent_->setFixedHeight(std::max(1, recent_->count()) * kRowHeight + 8);
 }
 
 void StartPage::show_job() {
