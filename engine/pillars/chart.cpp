@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "engine/pillars/course.h"
 #include "storage/base/error.h"
 #include "storage/base/hash.h"
 #include "storage/base/text.h"
@@ -235,9 +236,10 @@ Chart fit_chart(std::span<const PillarInput> pillars) {
   Middle middle;
   for (const PillarInput* p : ordered) {
     for (const IndexPoint& q : p->nodes) {
-      if (!std::isfinite(q.i) || !std::isfinite(q.j) || !std::isfinite(q.k))
+      if (!in_reach(q))
         throw Error(ErrorCode::kInvalid,
-                    fmt::format("a node of pillar '{}' is not finite", p->name_for_messages));
+                    fmt::format("a node of pillar '{}' is not finite, or too far away", p->name_for_messages),
+                    "nodes lie within 2^23 voxels of the survey");
       middle.add(q);
     }
   }

@@ -10,6 +10,8 @@
 namespace footwall::pillars {
 namespace {
 
+constexpr double kReach = 1 << 23;  // voxels, as far as the lattice goes (storage/survey/lattice.h)
+
 double cross(const ChartPoint& o, const ChartPoint& a, const ChartPoint& b) {
   return (a.strike - o.strike) * (b.dip - o.dip) - (a.dip - o.dip) * (b.strike - o.strike);
 }
@@ -55,9 +57,14 @@ Course course_of(const PillarInput& pillar, const Chart& chart, std::vector<std:
   std::size_t dropped = 0;
   for (std::size_t n = 0; n < pillar.nodes.size(); ++n) {
     const survey::IndexPoint& p = pillar.nodes[n];
-    if (!std::isfinite(p.i) || !std::isfinite(p.j) || !std::isfinite(p.k))
-      throw Error(ErrorCode::kInvalid, fmt::format("node {} of pillar '{}' is not finite", n + 1, c.name));
+    if (!in_reach(p))
+      throw Error(ErrorCode::kInvalid,
+                  fmt::format("node {} of pillar '{}' is not finite, or too far away", n + 1, c.name),
+                  "nodes lie within 2^23 voxels of the survey");
     const ChartPoint q = chart.from_index(p);
+    if (!in_reach({q.strike / 4, q.dip / 4, q.height / 4}))  // as the frame of nodes in reach has them
+      throw Error(ErrorCode::kInvalid, "the fault's stored chart lies far away from its nodes",
+                  "triangulate with --rechart");
     if (!c.points.empty() && space_distance(q, c.points.back()) < kTouch) {
       ++dropped;
       continue;
@@ -102,6 +109,11 @@ Course course_of(const PillarInput& pillar, const Chart& chart, std::vector<std:
 }
 
 }  // namespace
+
+bool in_reach(const survey::IndexPoint& p) {
+  // False for NaN, too.
+  return std::abs(p.i) <= kReach && std::abs(p.j) <= kReach && std::abs(p.k) <= kReach;
+}
 
 double chart_distance(const ChartPoint& a, const ChartPoint& b) {
   const double x = a.strike - b.strike, y = a.dip - b.dip;

@@ -23,9 +23,13 @@ struct Course {
   ChartPoint at(double at) const;
 };
 
+// Whether a node may lie there: a finite place within 2^23 voxels of the survey's origin. Beyond it lengths
+// could no longer be counted, and no survey is.
+bool in_reach(const survey::IndexPoint& p);
+
 // Sorted: first those along the main direction, then those across, each by place. Notes what it changed.
-// Throws Error kInvalid for nodes that are not finite, pillars without nodes, equal ids, and pillars folded
-// on themselves in the chart.
+// Throws Error kInvalid for nodes that are not in_reach(), pillars without nodes, equal ids, and pillars
+// folded on themselves in the chart.
 std::vector<Course> courses_of(std::span<const PillarInput> pillars, const Chart& chart,
                                std::vector<std::string>& notes);
 

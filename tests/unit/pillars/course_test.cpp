@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
+#include "storage/base/error.h"
 #include "unit/pillars/true_surface.h"
 
 namespace footwall::pillars {
@@ -37,6 +39,26 @@ TEST(Course, SlicesCrossAndComeLast) {
   const auto courses = courses_of(pillars, fit_chart(pillars), notes);
   EXPECT_TRUE(courses.back().crosses);
   EXPECT_EQ(courses.back().id, 11);
+}
+
+TEST(Course, NodesAndChartsThatAreFarAwayAreRefused) {
+  const auto near = picked(planar, 4, 5, 20);
+  const Chart chart = fit_chart(near);
+  std::vector<std::string> notes;
+  for (const double far :
+       {1e10, -1e300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    auto pillars = near;
+    pillars[1].nodes[2].k = far;
+    EXPECT_THROW(fit_chart(pillars), Error) << far;
+    EXPECT_THROW(courses_of(pillars, chart, notes), Error) << far;
+  }
+  // As a damaged project may have it: finite, and no frame.
+  Chart stretched = chart;
+  for (double& part : stretched.dip) part *= 1e200;
+  EXPECT_THROW(courses_of(near, stretched, notes), Error);
+  auto edge = near;
+  edge[1].nodes[2].k = 1 << 23;
+  EXPECT_NO_THROW(fit_chart(edge));
 }
 
 TEST(Course, MeetingsAreFoundWithinOneLatticeStep) {
