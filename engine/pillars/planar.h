@@ -25,7 +25,7 @@ struct Region {
 // names points without edges. Throws Error kInvalid if edges cross after all (rounding of near misses), or
 // two points fall together.
 std::vector<Region> regions_of(std::span<const ChartPoint> points, std::span<const PointEdge> edges,
-                               std::span<const std::int32_t> lone);
+                               std::span<const std::int32_t> lone, const JobContext& job);
 
 struct FillOptions {
   double detail = 0.5;

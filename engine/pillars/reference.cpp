@@ -93,6 +93,12 @@ class RuledSurface : public Reference {
   std::size_t last_ = 0;
 };
 
+// Whether p lies on the straight line between a and b in space, but for rounding.
+bool on_the_way(const ChartPoint& p, const ChartPoint& a, const ChartPoint& b) {
+  const double there = space_distance(a, p), whole = there + space_distance(p, b);
+  return whole > 0 && space_distance(p, between(a, b, there / whole)) <= 1e-9 * whole;
+}
+
 class MeanValueSurface : public Reference {
  public:
   explicit MeanValueSurface(std::vector<std::array<ChartPoint, 2>> rim) : rim_(std::move(rim)) {}
@@ -138,7 +144,16 @@ std::unique_ptr<Reference> ruled_surface(const Course& a, const Course& b) {
   return std::make_unique<RuledSurface>(std::move(pieces));
 }
 
-std::unique_ptr<Reference> mean_value_surface(std::vector<std::array<ChartPoint, 2>> rim) {
+std::unique_ptr<Reference> mean_value_surface(std::span<const ChartPoint> loop) {
+  std::vector<ChartPoint> corners;
+  for (std::size_t n = 0; n < loop.size(); ++n) {
+    const ChartPoint& before = corners.empty() ? loop.back() : corners.back();
+    if (!on_the_way(loop[n], before, loop[(n + 1) % loop.size()])) corners.push_back(loop[n]);
+  }
+  if (corners.size() < 3) corners.assign(loop.begin(), loop.end());
+  std::vector<std::array<ChartPoint, 2>> rim;
+  for (std::size_t n = 0; n < corners.size(); ++n)
+    rim.push_back({corners[n], corners[(n + 1) % corners.size()]});
   return std::make_unique<MeanValueSurface>(std::move(rim));
 }
 

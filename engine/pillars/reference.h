@@ -1,6 +1,7 @@
 // The surface that a panel is measured against: its height anywhere inside the panel.
 #pragma once
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/pillars/course.h"
@@ -18,10 +19,11 @@ class Reference {
 // the page. Null where it is not single-valued over the chart.
 std::unique_ptr<Reference> ruled_surface(const Course& a, const Course& b);
 
-// Mean value interpolation of the heights along a simple closed rim.
+// Mean value interpolation of the heights along a simple closed rim: its points in order, counter-clockwise.
+// Points on a straight run of it change nothing and cost nothing.
 // Based on: Floater, mean value coordinates, 2003; Hormann and Floater, mean value coordinates for arbitrary
 // planar polygons, 2006. tan(angle / 2) is taken as cross / (r r' + dot), so that no trigonometric function
 // is needed.
-std::unique_ptr<Reference> mean_value_surface(std::vector<std::array<ChartPoint, 2>> rim);
+std::unique_ptr<Reference> mean_value_surface(std::span<const ChartPoint> loop);
 
 }  // namespace footwall::pillars

@@ -29,9 +29,9 @@ struct Cell {
 
 class Weaver {
  public:
-  Weaver(Arrangement arrangement, const Chart& chart, const Options& options)
+  Weaver(Arrangement arrangement, const Chart& chart, const Options& options, const JobContext& job)
       : a_(std::move(arrangement)), chart_(chart), options_(options) {
-    regions_ = regions_of(a_.points, a_.edges, a_.lone);
+    regions_ = regions_of(a_.points, a_.edges, a_.lone, job);
     for (std::size_t e = 0; e < a_.edges.size(); ++e) {
       const auto [low, high] = std::minmax(a_.edges[e][0], a_.edges[e][1]);
       strand_of_[{low, high}] = a_.strands[e];
@@ -268,20 +268,21 @@ class Weaver {
                       a.name, b.name));
     }
     // With a pillar's end, a lone node or a hole inside, nothing smooth passes through all of it.
-    if (!cell.region->inner.empty() || !cell.region->points.empty() || !single_loop(cell.region->rim))
-      return nullptr;
-    std::vector<std::array<ChartPoint, 2>> rim;
-    for (const PointEdge& e : cell.region->rim) rim.push_back({a_.points[e[0]], a_.points[e[1]]});
-    return mean_value_surface(std::move(rim));
+    if (!cell.region->inner.empty() || !cell.region->points.empty()) return nullptr;
+    const std::vector<ChartPoint> loop = loop_of(cell.region->rim);
+    return loop.empty() ? nullptr : mean_value_surface(loop);
   }
 
-  static bool single_loop(const std::vector<PointEdge>& rim) {
+  // The rim's points in their order round the region; empty unless it is one simple loop.
+  std::vector<ChartPoint> loop_of(const std::vector<PointEdge>& rim) const {
     std::map<std::int32_t, std::int32_t> next;
     for (const PointEdge& e : rim)
-      if (!next.emplace(e[0], e[1]).second) return false;
-    std::size_t steps = 0;
-    for (std::int32_t p = rim[0][0]; steps == 0 || p != rim[0][0]; p = next.at(p)) ++steps;
-    return steps == rim.size();
+      if (!next.emplace(e[0], e[1]).second) return {};
+    std::vector<ChartPoint> loop;
+    for (std::int32_t p = rim[0][0]; loop.empty() || p != rim[0][0]; p = next.at(p))
+      loop.push_back(a_.points[p]);
+    if (loop.size() != rim.size()) loop.clear();
+    return loop;
   }
 
   Arrangement a_;
@@ -322,7 +323,7 @@ namespace {
 FaultMesh woven(std::span<const PillarInput> pillars, const Options& options, Chart frame, bool turns,
                 const JobContext& job) {
   auto weaver_for = [&](std::vector<std::string>& notes) {
-    return Weaver(arrange(courses_of(pillars, frame, notes), frame, options, notes), frame, options);
+    return Weaver(arrange(courses_of(pillars, frame, notes), frame, options, notes), frame, options, job);
   };
   std::vector<std::string> notes;
   Weaver weaver = weaver_for(notes);

@@ -15,7 +15,7 @@ const std::vector<ChartPoint> kSquare{{0, 0, 0},  {10, 0, 0}, {10, 10, 0}, {0, 1
 TEST(Planar, FindsTheRegionsThatEdgesEnclose) {
   // A square with a diagonal, an edge that sticks out, one that sticks in, and a lone point.
   const std::vector<PointEdge> edges{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}, {2, 4}, {3, 5}};
-  const auto regions = regions_of(kSquare, edges, std::vector<std::int32_t>{6});
+  const auto regions = regions_of(kSquare, edges, std::vector<std::int32_t>{6}, JobContext());
   ASSERT_EQ(regions.size(), 2u);
   EXPECT_EQ(regions[0].rim, (std::vector<PointEdge>{{0, 1}, {1, 2}, {2, 0}}));
   EXPECT_EQ(regions[1].rim, (std::vector<PointEdge>{{0, 2}, {2, 3}, {3, 0}}));
@@ -25,16 +25,17 @@ TEST(Planar, FindsTheRegionsThatEdgesEnclose) {
 }
 
 TEST(Planar, OpenEdgesEncloseNothing) {
-  EXPECT_TRUE(regions_of(kSquare, std::vector<PointEdge>{{0, 1}, {1, 2}, {2, 3}}, {}).empty());
-  EXPECT_TRUE(regions_of(kSquare, {}, {}).empty());
+  EXPECT_TRUE(regions_of(kSquare, std::vector<PointEdge>{{0, 1}, {1, 2}, {2, 3}}, {}, JobContext()).empty());
+  EXPECT_TRUE(regions_of(kSquare, {}, {}, JobContext()).empty());
 }
 
 TEST(Planar, RefusesEdgesThatCrossAndPointsThatCoincide) {
-  EXPECT_THROW(regions_of(kSquare, std::vector<PointEdge>{{0, 2}, {1, 3}}, {}), Error);
+  EXPECT_THROW(regions_of(kSquare, std::vector<PointEdge>{{0, 2}, {1, 3}}, {}, JobContext()), Error);
   const std::vector<ChartPoint> twins{{0, 0, 0}, {1, 0, 0}, {0, 0, 5}};
-  EXPECT_THROW(regions_of(twins, std::vector<PointEdge>{{0, 1}, {1, 2}}, {}), Error);
+  EXPECT_THROW(regions_of(twins, std::vector<PointEdge>{{0, 1}, {1, 2}}, {}, JobContext()), Error);
   const std::vector<ChartPoint> line{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}};
-  EXPECT_THROW(regions_of(line, std::vector<PointEdge>{{0, 2}, {2, 3}, {3, 0}, {1, 3}}, {}), Error);
+  EXPECT_THROW(regions_of(line, std::vector<PointEdge>{{0, 2}, {2, 3}, {3, 0}, {1, 3}}, {}, JobContext()),
+               Error);
 }
 
 class Bump : public Reference {
@@ -44,7 +45,7 @@ class Bump : public Reference {
 
 TEST(Planar, FillsARegionWithinItsBounds) {
   const std::vector<PointEdge> edges{{0, 1}, {1, 2}, {2, 3}, {3, 0}};
-  const auto regions = regions_of(kSquare, edges, {});
+  const auto regions = regions_of(kSquare, edges, {}, JobContext());
   ASSERT_EQ(regions.size(), 1u);
   Bump bump;
   const Filling coarse =
@@ -75,6 +76,15 @@ TEST(Planar, FillsARegionWithinItsBounds) {
   EXPECT_THROW(fill_region(regions[0], kSquare, &bump, {.detail = 0.001, .max_edge = 100, .most_points = 50},
                            JobContext()),
                Error);
+}
+
+TEST(Planar, CanBeCancelledInEachOfItsSteps) {
+  const std::vector<PointEdge> edges{{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  const auto regions = regions_of(kSquare, edges, {}, JobContext());
+  const JobContext cancelled;
+  cancelled.cancel();
+  EXPECT_THROW(regions_of(kSquare, edges, {}, cancelled), Error);
+  EXPECT_THROW(fill_region(regions[0], kSquare, nullptr, {.detail = 0.1, .max_edge = 100}, cancelled), Error);
 }
 
 }  // namespace

@@ -48,26 +48,29 @@ TEST(Reference, NoRuledSurfaceWhereLinesOvertakeEachOther) {
   EXPECT_EQ(ruled_surface(a, b), nullptr);
 }
 
-std::vector<std::array<ChartPoint, 2>> rim_of(const std::vector<ChartPoint>& loop) {
-  std::vector<std::array<ChartPoint, 2>> rim;
-  for (std::size_t n = 0; n < loop.size(); ++n) rim.push_back({loop[n], loop[(n + 1) % loop.size()]});
-  return rim;
-}
-
 TEST(Reference, MeanValuesReproducePlanesAndTheRim) {
   // An L-shaped rim: the corner at (10, 10) points inwards.
   std::vector<ChartPoint> loop{{0, 0, 0}, {30, 0, 0}, {30, 10, 0}, {10, 10, 0}, {10, 30, 0}, {0, 30, 0}};
   for (ChartPoint& p : loop) p.height = 2 + 0.3 * p.strike - 0.7 * p.dip;
-  const auto plane = mean_value_surface(rim_of(loop));
+  const auto plane = mean_value_surface(loop);
   for (const auto& [x, y] :
        std::vector<std::pair<double, double>>{{5, 5}, {25, 5}, {5, 25}, {9.9, 9.9}, {29, 9}})
     EXPECT_NEAR(plane->height(x, y), 2 + 0.3 * x - 0.7 * y, 1e-9);
   loop[3].height += 4;
-  const auto bent = mean_value_surface(rim_of(loop));
+  const auto bent = mean_value_surface(loop);
   EXPECT_NEAR(bent->height(10, 10), loop[3].height, 1e-9);
   EXPECT_NEAR(bent->height(20, 10), 0.5 * (loop[2].height + loop[3].height), 1e-9);
   EXPECT_NEAR(bent->height(20, 10 - 1e-7), bent->height(20, 10), 1e-5) << "continuous at the rim";
   EXPECT_NEAR(bent->height(10 - 1e-7, 10 - 1e-7), loop[3].height, 1e-5);
+  // The same rim in short pieces, from the middle of a side on.
+  std::vector<ChartPoint> pieces;
+  for (std::size_t n = 0; n < loop.size(); ++n)
+    for (int m = 0; m < 7; ++m) pieces.push_back(between(loop[n], loop[(n + 1) % loop.size()], m / 7.0));
+  std::rotate(pieces.begin(), pieces.begin() + 3, pieces.end());
+  const auto same = mean_value_surface(pieces);
+  for (const auto& [x, y] :
+       std::vector<std::pair<double, double>>{{5, 5}, {25, 5}, {9, 9.9}, {20, 10}, {1, 29}})
+    EXPECT_NEAR(same->height(x, y), bent->height(x, y), 1e-9);
 }
 
 }  // namespace

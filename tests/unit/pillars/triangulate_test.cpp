@@ -365,6 +365,21 @@ TEST(Triangulate, NarrowFaultWithANodeFarOutKeepsASurface) {
   expect_sound(woven(pillars, {}, section));
 }
 
+// One node typed with too many digits: thousands of points in two rows, in a panel and in a cell.
+TEST(Triangulate, ANodeFarBelowTheOthersGivesASoundMesh) {
+  const auto wall = [](double j, double) { return 60 + 0.3 * j; };
+  auto wedge = picked(wall, 2, 3, 20);
+  wedge[1].nodes[2].k = 80000;
+  const FaultMesh long_panel = woven(wedge);
+  EXPECT_GT(long_panel.vertices.size(), 10000u);
+  expect_sound(long_panel);
+  auto spike = picked(wall, 2, 3, 20);
+  spike[0].nodes = {{60, 10, 2}, {60, 10, 80000}, {61, 12, 10}};
+  const FaultMesh folded = woven(spike);
+  EXPECT_GT(folded.vertices.size(), 9000u);
+  expect_sound(folded);
+}
+
 TEST(Triangulate, CanBeCancelled) {
   const JobContext job;
   job.cancel();
