@@ -42,7 +42,8 @@ class Builder {
     out_.tied.assign(count, false);
     out_.edge_counts.assign(count, 0);
     // 1. Ties first, so that courses can run through them.
-    const std::vector<Tie> ties = ties_of(out_.courses, chart_, options_.tie_tolerance, out_.mis_ties);
+    const std::vector<Tie> ties =
+        ties_of(out_.courses, chart_, options_.tie_tolerance, options_.place_text, out_.mis_ties);
     stops_.resize(count);
     for (const Tie& tie : ties) {
       std::vector<std::int64_t> ids;

@@ -25,16 +25,11 @@ std::optional<double> foot(const ChartPoint& p, const ChartPoint& a, const Chart
   return t;
 }
 
-std::string place_of(const survey::IndexPoint& p) {
-  return fmt::format("inline index {:.1f}, crossline index {:.1f}, sample {:.1f}", p.i, p.j, p.k);
-}
-
-void refuse_folds(const Course& c) {
+void refuse_folds(const Course& c, const PlaceText& place_text) {
   auto folded = [&](std::size_t n) {
     throw Error(ErrorCode::kInvalid,
-                fmt::format("pillar '{}' is folded on itself near {}", c.name, place_of(c.positions[n])),
-                "mend the pillar, or split it in two; --rechart helps if the fault has turned since its "
-                "first triangulation");
+                fmt::format("pillar '{}' is folded on itself near {}", c.name, place_text(c.positions[n])),
+                "put its nodes in order, or split it in two");
   };
   const std::size_t segments = c.points.size() - 1;
   for (std::size_t m = 0; m < segments; ++m) {
@@ -47,7 +42,8 @@ void refuse_folds(const Course& c) {
   }
 }
 
-Course course_of(const PillarInput& pillar, const Chart& chart, std::vector<std::string>& notes) {
+Course course_of(const PillarInput& pillar, const Chart& chart, const PlaceText& place_text,
+                 std::vector<std::string>& notes) {
   Course c;
   c.id = pillar.id;
   c.name = pillar.name_for_messages.empty() ? std::to_string(pillar.id) : pillar.name_for_messages;
@@ -88,7 +84,7 @@ Course course_of(const PillarInput& pillar, const Chart& chart, std::vector<std:
     std::reverse(c.node_ids.begin(), c.node_ids.end());
     notes.push_back(fmt::format("pillar '{}' was taken in reverse, to run as its neighbours do", c.name));
   }
-  refuse_folds(c);
+  refuse_folds(c, place_text);
 
   c.s.assign(c.points.size(), 0);
   double weight = 0, place = 0;
@@ -156,7 +152,7 @@ Meetings meetings_of(const ChartPoint& p0, const ChartPoint& p1, const ChartPoin
 }
 
 std::vector<Course> courses_of(std::span<const PillarInput> pillars, const Chart& chart,
-                               std::vector<std::string>& notes) {
+                               std::vector<std::string>& notes, const PlaceText& place_text) {
   std::vector<const PillarInput*> by_id;
   for (const PillarInput& p : pillars) by_id.push_back(&p);
   std::stable_sort(by_id.begin(), by_id.end(),
@@ -165,7 +161,7 @@ std::vector<Course> courses_of(std::span<const PillarInput> pillars, const Chart
   for (const PillarInput* p : by_id) {
     if (!courses.empty() && courses.back().id == p->id)
       throw Error(ErrorCode::kInvalid, fmt::format("two pillars have the id {}", p->id));
-    courses.push_back(course_of(*p, chart, notes));
+    courses.push_back(course_of(*p, chart, place_text, notes));
   }
   std::stable_sort(courses.begin(), courses.end(), [](const Course& a, const Course& b) {
     return std::tie(a.crosses, a.place, a.id) < std::tie(b.crosses, b.place, b.id);

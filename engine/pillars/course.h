@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/pillars/chart.h"
+#include "engine/pillars/place_text.h"
 
 namespace footwall::pillars {
 
@@ -31,7 +32,7 @@ bool in_reach(const survey::IndexPoint& p);
 // Throws Error kInvalid for nodes that are not in_reach(), pillars without nodes, equal ids, and pillars
 // folded on themselves in the chart.
 std::vector<Course> courses_of(std::span<const PillarInput> pillars, const Chart& chart,
-                               std::vector<std::string>& notes);
+                               std::vector<std::string>& notes, const PlaceText& place_text = index_text);
 
 // The points of two segments p0-p1 and q0-q1 that coincide (within kTouch): none, a crossing or a touch, or
 // two ends of an overlap. u and v are their parameters on p and q.

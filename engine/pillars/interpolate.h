@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/pillars/chart.h"
+#include "engine/pillars/place_text.h"
 #include "storage/base/job_context.h"
 
 namespace footwall::pillars {
@@ -24,6 +25,7 @@ struct InterpolateOptions {
   std::optional<double> tolerance = std::nullopt;
   double smoothing = 0;       // mu of the thin plate, >= 0; 0 passes through every node
   double dip_anisotropy = 2;  // distances down the dip count this much more than along strike
+  PlaceText place_text = index_text;
 };
 
 struct Parents {

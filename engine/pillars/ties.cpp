@@ -66,10 +66,6 @@ std::vector<Encounter> encounters_of(const std::vector<Course>& courses) {
   return found;
 }
 
-std::string place_of(const survey::IndexPoint& p) {
-  return fmt::format("inline index {:.1f}, crossline index {:.1f}, sample {:.1f}", p.i, p.j, p.k);
-}
-
 }  // namespace
 
 std::vector<double> chart_lengths(const Course& course) {
@@ -80,7 +76,7 @@ std::vector<double> chart_lengths(const Course& course) {
 }
 
 std::vector<Tie> ties_of(const std::vector<Course>& courses, const Chart& chart, double tolerance,
-                         std::vector<MisTie>& mis_ties) {
+                         const PlaceText& place_text, std::vector<MisTie>& mis_ties) {
   // 1. One encounter for each place; two ends of an overlap are two places with nothing between the courses
   // there.
   std::vector<Encounter> places;
@@ -108,7 +104,7 @@ std::vector<Tie> ties_of(const std::vector<Course>& courses, const Chart& chart,
         if (together)
           throw Error(ErrorCode::kInvalid,
                       fmt::format("pillars '{}' and '{}' lie on one another near {}", a.name, b.name,
-                                  place_of(chart.to_index(e.on_a))),
+                                  place_text(chart.to_index(e.on_a))),
                       "delete one of the two");
       }
     }
@@ -131,7 +127,7 @@ std::vector<Tie> ties_of(const std::vector<Course>& courses, const Chart& chart,
     throw Error(
         ErrorCode::kInvalid,
         fmt::format("pillars '{}' and '{}' cross near {} with {:.2f} voxels between them (tolerance {:g}){}",
-                    courses[worst->a].name, courses[worst->b].name, place_of(chart.to_index(worst->on_a)),
+                    courses[worst->a].name, courses[worst->b].name, place_text(chart.to_index(worst->on_a)),
                     worst_gap, tolerance,
                     beyond > 1 ? fmt::format("; {} more crossings are beyond it", beyond - 1) : ""),
         "move their nodes together there, or split the fault");

@@ -205,14 +205,10 @@ class Weaver {
         if (a_.edges[n][0] == e[0] || a_.edges[n][1] == e[0])
           for (std::int32_t c : {a_.strands[n].a, a_.strands[n].b})
             names.insert("'" + a_.courses[c].name + "'");
-      const auto& p = a_.vertices[e[0]].position;
-      throw Error(
-          ErrorCode::kInvalid,
-          fmt::format(
-              "the surface between pillars {} would be pinched to one point near inline index {:.1f}, "
-              "crossline index {:.1f}, sample {:.1f}",
-              fmt::join(names, ", "), p.i, p.j, p.k),
-          "uncross the pillars there, or add one beside the crossing");
+      throw Error(ErrorCode::kInvalid,
+                  fmt::format("the surface between pillars {} would be pinched to one point near {}",
+                              fmt::join(names, ", "), options_.place_text(a_.vertices[e[0]].position)),
+                  "uncross the pillars there, or add one beside the crossing");
     }
   }
 
@@ -323,7 +319,8 @@ namespace {
 FaultMesh woven(std::span<const PillarInput> pillars, const Options& options, Chart frame, bool turns,
                 const JobContext& job) {
   auto weaver_for = [&](std::vector<std::string>& notes) {
-    return Weaver(arrange(courses_of(pillars, frame, notes), frame, options, notes), frame, options, job);
+    return Weaver(arrange(courses_of(pillars, frame, notes, options.place_text), frame, options, notes),
+                  frame, options, job);
   };
   std::vector<std::string> notes;
   Weaver weaver = weaver_for(notes);

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "engine/pillars/chart.h"
+#include "engine/pillars/place_text.h"
 #include "storage/base/job_context.h"
 #include "storage/survey/points.h"
 
@@ -28,6 +29,7 @@ struct Options {
   double detail = 0.5;
   double max_edge = 16;      // longest edge
   double tie_tolerance = 2;  // crossing pillars at most this far apart are tied half-way
+  PlaceText place_text = index_text;
 };
 
 struct MeshVertex {

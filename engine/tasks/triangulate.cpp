@@ -103,22 +103,23 @@ project::MeshRecord mesh_of_fault(const project::Project& project, const project
   if (chart.empty()) {
     if (const auto former = project.mesh(fault.id)) chart = former->chart;
   }
-  return mesh_of_pillars(survey, fault, stored, chart, options, job, notes);
+  try {
+    return mesh_of_pillars(survey, fault, stored, chart, options, job, notes);
+  } catch (const Error& error) {
+    throw about(fault, error);
+  }
 }
 
 project::MeshRecord mesh_of_pillars(const survey::Geometry& survey, const project::FaultRecord& fault,
                                     std::span<const survey::Pillar> stored, const project::Bytes& chart,
                                     const TriangulateOptions& options, const JobContext& job,
                                     std::vector<std::string>* notes) {
-  try {
-    const pillars::FaultMesh mesh = pillars::triangulate(
-        pillars::inputs_of(survey, stored), {options.detail, options.max_edge, options.tie},
-        options.rechart ? std::nullopt : unpacked(chart), job);
-    if (notes != nullptr) *notes = mesh.notes;
-    return mesh_record(survey, fault, stored, mesh, options);
-  } catch (const Error& error) {
-    throw about(fault, error);
-  }
+  const pillars::FaultMesh mesh =
+      pillars::triangulate(pillars::inputs_of(survey, stored),
+                           {options.detail, options.max_edge, options.tie, pillars::place_text_of(survey)},
+                           options.rechart ? std::nullopt : unpacked(chart), job);
+  if (notes != nullptr) *notes = mesh.notes;
+  return mesh_record(survey, fault, stored, mesh, options);
 }
 
 Triangulated triangulate_fault(project::Project& project, const project::FaultRecord& fault,
@@ -149,6 +150,7 @@ std::int64_t interpolate_fault(project::Project& project, const project::FaultRe
     pillars::InterpolateOptions how;
     how.every_lines = options.every;
     how.tolerance = options.tolerance;
+    how.place_text = pillars::place_text_of(survey);
     const pillars::Interpolation made =
         pillars::interpolate(pillars::inputs_of(survey, picked), how, stored_chart(project, fault), job);
     project.edit("Interpolate pillars of " + fault.name, [&](project::Interpretation& picks) {

@@ -36,7 +36,8 @@ project::MeshRecord mesh_of_fault(const project::Project& project, const project
                                   std::vector<std::string>* notes = nullptr);
 
 // The same from pillars that need not be stored; reads no project, so that it may run on any thread. chart:
-// the fault's own, or of its last mesh; empty: found anew. The mesh has the fault's revision.
+// the fault's own, or of its last mesh; empty: found anew. The mesh has the fault's revision. What is
+// thrown does not name the fault.
 project::MeshRecord mesh_of_pillars(const survey::Geometry& survey, const project::FaultRecord& fault,
                                     std::span<const survey::Pillar> pillars, const project::Bytes& chart,
                                     const TriangulateOptions& options, const JobContext& job,

@@ -28,6 +28,16 @@ TEST(Triangulate, NamesPillarsThatCrossBeyondTheTolerance) {
   EXPECT_NE(message.find("'T11'"), message.npos) << message;
   EXPECT_NE(message.find("(tolerance 2)"), message.npos) << message;
   EXPECT_EQ(complaint(pillars, {.tie_tolerance = 6}), "");
+  // Where the interpreter finds it: by line numbers and in the survey's unit.
+  survey::Geometry survey;
+  survey.inlines = {.first = 1000, .step = 2, .count = 200};
+  survey.crosslines = {.first = 300, .step = 1, .count = 200};
+  survey.z0 = 100;
+  survey.interval = 4;
+  EXPECT_EQ(place_text_of(survey)({10, 20.25, 40.5}), "inline 1020, crossline 320.3, 262 ms");
+  EXPECT_EQ(index_text({10, 20.25, 40.5}), "inline index 10, crossline index 20.3, sample 40.5");
+  const std::string placed = complaint(pillars, {.place_text = place_text_of(survey)});
+  EXPECT_NE(placed.find("inline 1212.4, crossline 370, 268.1 ms with 4.15 voxels"), placed.npos) << placed;
 }
 
 TEST(Triangulate, NamesFoldedPillars) {

@@ -71,6 +71,7 @@ double or_default(double value, double otherwise) {
 v1::InterpolateReply interpolate(const v1::InterpolateRequest& request, const JobContext& job) {
   const survey::Geometry geometry = geometry_from(request.geometry_json());
   pillars::InterpolateOptions options;
+  options.place_text = pillars::place_text_of(geometry);
   if (request.has_every()) options.every_lines = request.every();
   if (request.has_tolerance()) options.tolerance = request.tolerance();
   const std::vector<survey::Pillar> picked = pillars_from(request.pillars());
@@ -91,9 +92,9 @@ v1::Triangulation triangulate(const v1::TriangulateRequest& request, const JobCo
   const survey::Geometry geometry = geometry_from(request.geometry_json());
   const std::vector<survey::Pillar> picked = pillars_from(request.pillars());
   const pillars::Options defaults;
-  const pillars::Options options{or_default(request.detail(), defaults.detail),
-                                 or_default(request.max_edge(), defaults.max_edge),
-                                 or_default(request.tie(), defaults.tie_tolerance)};
+  const pillars::Options options{
+      or_default(request.detail(), defaults.detail), or_default(request.max_edge(), defaults.max_edge),
+      or_default(request.tie(), defaults.tie_tolerance), pillars::place_text_of(geometry)};
   const pillars::FaultMesh mesh =
       pillars::triangulate(pillars::inputs_of(geometry, picked), options, std::nullopt, job);
   const std::vector<survey::WorldPoint> places = pillars::world_vertices(geometry, picked, mesh);
