@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "storage/base/error.h"
@@ -279,6 +280,24 @@ void Interpretation::assign_pillars(std::span<const std::int64_t> pillars, std::
 void Interpretation::reverse_pillar(std::int64_t pillar) {
   survey::Pillar changed = begin_change(state_, pillar);
   std::ranges::reverse(changed.nodes);
+  state_.faults.set_nodes(pillar, changed.nodes);
+  end_change(state_, pillar);
+}
+
+void Interpretation::reorder_nodes(std::int64_t pillar, std::span<const std::int64_t> nodes) {
+  survey::Pillar changed = begin_change(state_, pillar);
+  std::map<std::int64_t, survey::PillarNode> former;
+  for (const survey::PillarNode& node : changed.nodes) former[node.id] = node;
+  changed.nodes.clear();
+  for (const std::int64_t node : nodes) {
+    const auto found = former.extract(node);
+    if (found.empty()) break;
+    changed.nodes.push_back(found.mapped());
+  }
+  if (changed.nodes.size() != nodes.size() || !former.empty()) {
+    throw Error(ErrorCode::kInvalid,
+                fmt::format("the new order of pillar {} does not name each of its nodes once", pillar));
+  }
   state_.faults.set_nodes(pillar, changed.nodes);
   end_change(state_, pillar);
 }

@@ -64,6 +64,8 @@ class Interpretation {
   void assign_pillars(std::span<const std::int64_t> pillars, std::int64_t fault);
   // The same nodes, last first.
   void reverse_pillar(std::int64_t pillar);
+  // The same nodes in this order of their ids.
+  void reorder_nodes(std::int64_t pillar, std::span<const std::int64_t> nodes);
   // Replaces all nodes (ids are kept as far as there are as many); an interpolated pillar becomes
   // interpreted.
   void set_nodes(std::int64_t pillar, std::span<const survey::WorldPoint> nodes);

@@ -251,6 +251,10 @@ FaultRun Project::fault_statistics(std::int64_t run, std::int64_t fault) const {
 std::vector<FaceVoxels> Project::face_voxels(std::int64_t run, std::int64_t fault) const {
   return RunTable(*state_->database).voxels(run, fault);
 }
+void Project::rename_run(std::int64_t run, const std::string& name) {
+  state_->write([&] { RunTable(*state_->database).rename(run, name); });
+}
+
 void Project::delete_run(std::int64_t run) {
   state_->write([&] { RunTable(*state_->database).remove(run); });
 }

@@ -163,6 +163,8 @@ class Project {
   FaultRun fault_statistics(std::int64_t run, std::int64_t fault) const;
   // What the run kept of the fault's voxels, by codec; empty where nothing. Throws kCorrupt.
   std::vector<FaceVoxels> face_voxels(std::int64_t run, std::int64_t fault) const;
+  // An empty name: "run N", with its id.
+  void rename_run(std::int64_t run, const std::string& name);
   void delete_run(std::int64_t run);
   // One entry per face of the run: true where the present mesh has no face of that id at those lattice
   // positions, or the fault is gone or edited and not yet triangulated again.

@@ -221,8 +221,12 @@ QString RandomHand::command(std::size_t what) {
       assign_pillars(document_, some_pillars(*fault, 5), other->record.id);
       return QStringLiteral("assign");
     case 7:
-      reverse_pillars(document_, some_pillars(*fault, 3));
-      return QStringLiteral("reverse");
+      if (below(2) == 0) {
+        reverse_pillars(document_, some_pillars(*fault, 3));
+        return QStringLiteral("reverse");
+      }
+      reorder_pillars(document_, some_pillars(*fault, 3));
+      return QStringLiteral("reorder");
     case 8:
       smooth_pillars(document_, some_pillars(*fault, 3));
       return QStringLiteral("smooth");

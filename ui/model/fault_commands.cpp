@@ -73,6 +73,51 @@ std::vector<WorldPoint> resampled(const std::vector<WorldPoint>& nodes, int coun
   return result;
 }
 
+// World positions in metres each way: for lengths that heights take part in.
+struct Metres {
+  double horizontal = 1, vertical = 1;
+  WorldPoint operator()(const WorldPoint& p) const {
+    return {horizontal * p.x, horizontal * p.y, vertical * p.z};
+  }
+};
+
+// Heights of a time survey by half the project's velocity. Unset without a survey, or (told) where the
+// project cannot be read.
+std::optional<Metres> metres_of(Document& document) {
+  if (!document.survey()) return std::nullopt;
+  double velocity = kMetreAMillisecond;
+  try {
+    const auto stored = document.project().setting("velocity");
+    const double known = stored ? QString::fromStdString(*stored).toDouble() : 0;
+    if (known > 0 && std::isfinite(known)) velocity = known;
+  } catch (const Error& error) {
+    Q_EMIT document.failed(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
+    return std::nullopt;
+  }
+  return Metres{document.survey()->horizontal_metres(1), document.survey()->vertical_metres(1, velocity)};
+}
+
+// The nodes' ids in the order of their feet on the line between the pillar's ends. An end: the node farthest
+// from the first; the other: the node farthest from that one.
+std::vector<Id> from_end_to_end(const std::vector<survey::PillarNode>& nodes, const Metres& metres) {
+  const auto farthest_from = [&](const WorldPoint& from) {
+    return metres(std::ranges::max(nodes, {}, [&](const survey::PillarNode& node) {
+                    return distance(metres(node.position), from);
+                  }).position);
+  };
+  const WorldPoint last = farthest_from(metres(nodes.front().position)), first = farthest_from(last);
+  const WorldPoint way{last.x - first.x, last.y - first.y, last.z - first.z};
+  std::vector<std::pair<double, Id>> along;
+  for (const survey::PillarNode& node : nodes) {
+    const WorldPoint p = metres(node.position);
+    along.emplace_back((p.x - first.x) * way.x + (p.y - first.y) * way.y + (p.z - first.z) * way.z, node.id);
+  }
+  std::ranges::stable_sort(along, {}, &std::pair<double, Id>::first);
+  std::vector<Id> order;
+  for (const auto& [foot, id] : along) order.push_back(id);
+  return order;
+}
+
 // Each pillar's nodes put through `change`, as one edit.
 bool reshape(Document& document, const QString& name, const std::set<Id>& pillars,
              const std::function<std::vector<WorldPoint>(const std::vector<WorldPoint>&)>& change) {
@@ -237,6 +282,24 @@ bool reverse_pillars(Document& document, const std::set<Id>& pillars) {
                        });
 }
 
+bool reorder_pillars(Document& document, const std::set<Id>& pillars) {
+  const std::optional<Metres> metres = metres_of(document);
+  if (!metres) return false;
+  std::map<Id, std::vector<Id>> orders;
+  for (const Id id : pillars) {
+    const survey::Pillar* pillar = document.pillar(id);
+    if (pillar == nullptr) continue;
+    std::vector<Id> order = from_end_to_end(pillar->nodes, *metres);
+    if (!std::ranges::equal(order, pillar->nodes, {}, {}, &survey::PillarNode::id))
+      orders[id] = std::move(order);
+  }
+  if (orders.empty()) return false;
+  return document.edit(counted("Reorder nodes of a pillar", "Reorder nodes of %1 pillars", orders.size()),
+                       [&](project::Interpretation& now) {
+                         for (const auto& [id, order] : orders) now.reorder_nodes(id, order);
+                       });
+}
+
 bool smooth_pillars(Document& document, const std::set<Id>& pillars) {
   return reshape(document, counted("Smooth pillar", "Smooth %1 pillars", pillars.size()), pillars, smoothed);
 }
@@ -250,20 +313,10 @@ bool resample_pillars(Document& document, const std::set<Id>& pillars, int nodes
 }
 
 bool resample_by_spacing(Document& document, const std::set<Id>& pillars, double metres) {
-  if (!(metres > 0) || !document.survey()) return false;
-  const survey::Geometry& survey = *document.survey();
-  double velocity = kMetreAMillisecond;
-  try {
-    const auto stored = document.project().setting("velocity");
-    const double known = stored ? QString::fromStdString(*stored).toDouble() : 0;
-    if (known > 0 && std::isfinite(known)) velocity = known;
-  } catch (const Error& error) {
-    Q_EMIT document.failed(QString::fromStdString(error.message()), QString::fromStdString(error.hint()));
-    return false;
-  }
+  const std::optional<Metres> scale = metres_of(document);
+  if (!(metres > 0) || !scale) return false;
   const auto metric = [&](const WorldPoint& a, const WorldPoint& b) {
-    return std::hypot(survey.horizontal_metres(std::hypot(a.x - b.x, a.y - b.y)),
-                      survey.vertical_metres(a.z - b.z, velocity));
+    return distance((*scale)(a), (*scale)(b));
   };
   return reshape(document, counted("Resample pillar", "Resample %1 pillars", pillars.size()), pillars,
                  [&](const std::vector<WorldPoint>& before) {

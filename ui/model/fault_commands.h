@@ -31,6 +31,9 @@ bool merge_faults(Document& document, Id into, const std::set<Id>& others);
 Id split_fault(Document& document, const std::set<Id>& pillars);
 bool assign_pillars(Document& document, const std::set<Id>& pillars, Id fault);
 bool reverse_pillars(Document& document, const std::set<Id>& pillars);
+// Each pillar's nodes in the order in which they lie between its two ends, which are as far apart as any;
+// from the end that is nearer to the node that was first. Lengths as in resample_by_spacing.
+bool reorder_pillars(Document& document, const std::set<Id>& pillars);
 // Each inner node a third of the way to the middle of its neighbours.
 bool smooth_pillars(Document& document, const std::set<Id>& pillars);
 // As many nodes, evenly spaced along each pillar.

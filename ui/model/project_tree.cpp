@@ -306,7 +306,7 @@ Qt::ItemFlags ProjectTree::flags(const QModelIndex& index) const {
   const auto group = static_cast<Group>(index.internalId() - 1);
   Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemNeverHasChildren;
   if (has_check(group)) flags |= Qt::ItemIsUserCheckable;
-  if (!document_.read_only() && group != kRuns) flags |= Qt::ItemIsEditable;
+  if (!document_.read_only()) flags |= Qt::ItemIsEditable;
   return flags;
 }
 
@@ -328,6 +328,8 @@ bool ProjectTree::rename(const Row& row, const QString& name) {
       return rename_volume(row.item.id, name);
     case Item::Kind::kIsosurface:
       return rename_isosurface(row.item.id, name);
+    case Item::Kind::kRun:
+      return rename_run(row.item.id, name);
     case Item::Kind::kView:
       return rename_view(row.name, name);
     default:
@@ -359,6 +361,17 @@ bool ProjectTree::rename_volume(Id volume, const QString& name) {
     return false;
   }
   document_.reload_volumes();
+  return true;
+}
+
+bool ProjectTree::rename_run(Id run, const QString& name) {
+  try {
+    document_.store().rename_run(run, name.toStdString());
+  } catch (const Error& error) {
+    tell(error);
+    return false;
+  }
+  Q_EMIT document_.runs_changed();
   return true;
 }
 

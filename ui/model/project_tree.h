@@ -73,6 +73,7 @@ class ProjectTree final : public QAbstractItemModel {
   bool rename(const Row& row, const QString& name);
   bool rename_isosurface(Id isosurface, const QString& name);
   bool rename_volume(Id volume, const QString& name);
+  bool rename_run(Id run, const QString& name);
   bool rename_view(const QString& former, const QString& name);
   bool remove_isosurface(Id isosurface, Removed& removed);
   bool remove_view(const QString& name, Removed& removed);

@@ -38,6 +38,7 @@ ShownNumbers::ShownNumbers(Document& document, Display& display, const Surfaces&
     if (std::ranges::none_of(faults, [this](Id fault) { return document_.is_provisional(fault); }))
       kept_range_.reset();
   });
+  connect(&document, &Document::runs_changed, this, &ShownNumbers::follow_name);
   follow_display();
 }
 
@@ -60,6 +61,19 @@ void ShownNumbers::follow_display() {
     }
   } catch (const Error& error) {
     give_up(error);
+  }
+  Q_EMIT run_changed();
+}
+
+void ShownNumbers::follow_name() {
+  if (!run_) return;
+  try {
+    const auto runs = document_.project().runs();
+    const auto now = std::ranges::find(runs, run_->id, &project::RunRecord::id);
+    if (now == runs.end() || now->name == run_->name) return;
+    run_->name = now->name;
+  } catch (const Error& error) {
+    return give_up(error);
   }
   Q_EMIT run_changed();
 }

@@ -49,7 +49,7 @@ class ShownNumbers final : public QObject {
   std::optional<std::pair<double, double>> range(const std::set<Id>& faults, const QString& statistic) const;
 
  Q_SIGNALS:
-  // Another run is shown, or none.
+  // Another run is shown, or none, or it has another name.
   void run_changed();
   // Of a run: they have been read.
   void numbers_changed(const std::set<footwall::ui::Id>& faults);
@@ -68,6 +68,7 @@ class ShownNumbers final : public QObject {
   };
 
   void follow_display();
+  void follow_name();
   void start_reading();
   void came(std::uint64_t request, const std::shared_ptr<const FaultOfRun>& fault);
   void ended(std::uint64_t request, const std::optional<Error>& failure);

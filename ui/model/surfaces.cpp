@@ -20,7 +20,7 @@ tasks::TriangulateOptions task_options(const pillars::Options& options) {
 }
 
 pillars::Options pillar_options(const tasks::TriangulateOptions& options) {
-  return {options.detail, options.max_edge, options.tie};
+  return {.detail = options.detail, .max_edge = options.max_edge, .tie_tolerance = options.tie};
 }
 
 constexpr std::array kOffsets{"offset", "offset_voxels", "offset_score"};

@@ -148,6 +148,7 @@ void ProjectPanel::contextMenuEvent(QContextMenuEvent* event) {
       add(id);
     menu.addSeparator();
   } else if (item.kind == Item::Kind::kRun) {
+    add("edit.rename");
     add("view.run");
   } else if (item) {
     add("edit.rename");

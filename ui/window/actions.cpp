@@ -127,7 +127,7 @@ unsigned Actions::met() const {
   add(kind == Item::Kind::kRun || bench->display.faces().run != 0, kRun);
   const Item::Kind named = selection.owner().kind;
   add(named == Item::Kind::kFault || named == Item::Kind::kVolume || named == Item::Kind::kIsosurface ||
-          named == Item::Kind::kView,
+          named == Item::Kind::kRun || named == Item::Kind::kView,
       kNameable);
   add(!bench->document.faults().empty(), kFaults);
   add(bench->document.fault(selection.active_fault()) != nullptr, kActive);

@@ -130,7 +130,7 @@ std::vector<ActionRow> first_actions() {
                          "Drop the oldest steps of the history for good, to make the project smaller"),
        kProject | kWriting, open_trim_history_dialog},
       {"edit.rename", M::kEdit, QT_TRANSLATE_NOOP("Actions", "Re&name"), "F2", "rename",
-       QT_TRANSLATE_NOOP("Actions", "Give the selected fault, volume, isosurface or view another name"),
+       QT_TRANSLATE_NOOP("Actions", "Give the selected fault, volume, isosurface, run or view another name"),
        kProject | kWriting | kNameable, rename, nullptr, true},
       {"edit.delete", M::kEdit, QT_TRANSLATE_NOOP("Actions", "&Delete"), "Del", "delete",
        QT_TRANSLATE_NOOP("Actions", "Delete what is selected; undo, or a banner, brings it back"),

@@ -134,9 +134,7 @@ std::int64_t RunTable::add(const RunRecord& run, std::span<const FaultRun> fault
         run.name, run.live, run.volume, run.volume_checksum, run.parameters, run.result, now_text())
       .run();
   const std::int64_t id = database_.integer("SELECT last_insert_rowid()");
-  if (run.name.empty()) {
-    Query(database_, "UPDATE extraction SET name = ? WHERE id = ?", fmt::format("run {}", id), id).run();
-  }
+  if (run.name.empty()) rename(id, {});
   for (const FaultRun& fault : faults) add_fault(id, fault);
   return id;
 }
@@ -186,6 +184,13 @@ void RunTable::add_voxels(std::int64_t run, const FaultRun& f, const FaceVoxels&
         "INSERT INTO face_voxels(run, fault, codec, parameters, ends, data) VALUES(?, ?, ?, ?, ?, ?)", run,
         f.fault, voxels.codec, voxels.parameters, packed(voxels.ends), voxels.bytes)
       .run();
+}
+
+void RunTable::rename(std::int64_t run, const std::string& name) {
+  if (!name.empty()) check_name("run", name);
+  Query renamed(database_, "UPDATE extraction SET name = ? WHERE id = ? RETURNING id",
+                name.empty() ? fmt::format("run {}", run) : name, run);
+  if (!renamed.next()) throw no_run(run);
 }
 
 void RunTable::remove(std::int64_t run) {

@@ -23,6 +23,8 @@ class RunTable {
   std::vector<FaceVoxels> voxels(std::int64_t run, std::int64_t fault) const;
   // Throws kInvalid where the vectors differ in length or a statistic is not registered.
   std::int64_t add(const RunRecord& run, std::span<const FaultRun> faults);
+  // An empty name: as a run is called that got none.
+  void rename(std::int64_t run, const std::string& name);
   void remove(std::int64_t run);
 
  private:

@@ -18,6 +18,7 @@ class FaultCommandsTest final : public QObject {
   void merges_and_splits();
   void smooths_and_resamples();
   void resamples_by_metres();
+  void reorders_nodes_from_end_to_end();
   void turns_and_scales_about_the_middle();
   void random_commands_can_all_be_undone_and_redone();
 };
@@ -76,7 +77,11 @@ void do_something(Document& document, std::mt19937_64& random) {
       if (fault != 0 && !pillars.empty()) assign_pillars(document, pillars, fault);
       return;
     case 6:
-      if (!pillars.empty()) reverse_pillars(document, pillars);
+      if (!pillars.empty() && random() % 2 == 0) {
+        reverse_pillars(document, pillars);
+      } else if (!pillars.empty()) {
+        reorder_pillars(document, pillars);
+      }
       return;
     case 7:
       if (!pillars.empty()) resample_pillars(document, pillars, 2 + static_cast<int>(random() % 5));
@@ -187,6 +192,28 @@ void FaultCommandsTest::resamples_by_metres() {
   QVERIFY(resample_by_spacing(document, {before.id}, 1e6));
   QCOMPARE(document.pillar(before.id)->nodes.size(), std::size_t{2});
   QVERIFY(!resample_by_spacing(document, {before.id}, 0));
+}
+
+void FaultCommandsTest::reorders_nodes_from_end_to_end() {
+  const SampleProject sample;
+  Document document(sample.open());
+  const Id id = document.faults()[0].pillars[0].id;
+  QVERIFY(resample_pillars(document, {id}, 9));
+  const survey::Pillar before = *document.pillar(id);
+  const std::size_t steps = document.history().size();
+  QVERIFY(!reorder_pillars(document, {id}));  // in order already
+  QCOMPARE(document.history().size(), steps);
+  std::mt19937_64 random(6);
+  for (int round = 0; round < 20; ++round) {
+    // The first stays near its end, or the other end would be the start.
+    std::vector<Id> order;
+    for (const auto& node : before.nodes) order.push_back(node.id);
+    std::shuffle(order.begin() + 1, order.end(), random);
+    document.edit("tangle", [&](project::Interpretation& now) { now.reorder_nodes(id, order); });
+    QVERIFY(reorder_pillars(document, {id}) || order[1] == before.nodes[1].id);
+    const auto& after = document.pillar(id)->nodes;
+    QVERIFY(std::ranges::equal(after, before.nodes, {}, &survey::PillarNode::id, &survey::PillarNode::id));
+  }
 }
 
 void FaultCommandsTest::turns_and_scales_about_the_middle() {

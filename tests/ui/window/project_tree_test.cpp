@@ -388,6 +388,13 @@ void ProjectTreeTest::one_run_is_shown_or_none() {
   QCOMPARE(bench->display.faces().run, Id{0});
   QVERIFY(!checked(first) && !checked(second));
   QVERIFY(tree.setData(row(first), Qt::Checked, Qt::CheckStateRole));
+  // F2: the numbers shown are called so, too.
+  QVERIFY(tree.setData(row(first), QStringLiteral("before the move"), Qt::EditRole));
+  QCOMPARE(bench->document.project().run(first).name, std::string("before the move"));
+  QCOMPARE(row(first).data().toString(), QStringLiteral("before the move"));
+  QCOMPARE(bench->shown_numbers.run()->name, std::string("before the move"));
+  QVERIFY(!tree.setData(row(first), QStringLiteral("two\nlines"), Qt::EditRole));
+  QCOMPARE(row(first).data().toString(), QStringLiteral("before the move"));
   bench->document.store().delete_run(first);
   Q_EMIT bench->document.runs_changed();
   QCOMPARE(bench->display.faces().run, Id{0});

@@ -102,6 +102,28 @@ TEST_F(InterpretationTest, AReversedPillarKeepsItsNodes) {
   EXPECT_EQ(stored(a_.id).nodes[1].id, a_.nodes[0].id);
 }
 
+TEST_F(InterpretationTest, NodesAreReorderedWithTheirIdsOrNotAtAll) {
+  std::int64_t third = 0;
+  project_->edit("insert", [&](Interpretation& it) { third = it.insert_node(a_.id, 2, {1, 1, 15}); });
+  const std::int64_t first = a_.nodes[0].id, second = a_.nodes[1].id;
+  const auto reorder = [&](std::vector<std::int64_t> order) {
+    project_->edit("reorder", [&](Interpretation& it) { it.reorder_nodes(a_.id, order); });
+  };
+  reorder({third, first, second});
+  const survey::Pillar now = stored(a_.id);
+  ASSERT_EQ(now.nodes.size(), 3U);
+  EXPECT_EQ(now.nodes[0].id, third);
+  EXPECT_EQ(now.nodes[0].position, (WorldPoint{1, 1, 15}));
+  EXPECT_EQ(now.nodes[1].id, first);
+  EXPECT_EQ(now.nodes[2].position, a_.nodes[1].position);
+  for (const auto& wrong : std::vector<std::vector<std::int64_t>>{
+           {}, {first, second}, {first, second, second}, {first, second, third, third}, {first, second, 999}})
+    EXPECT_EQ(error_of([&] { reorder(wrong); }).code(), ErrorCode::kInvalid);
+  EXPECT_EQ(stored(a_.id).nodes[0].id, third);
+  project_->undo();
+  EXPECT_EQ(stored(a_.id).nodes[0].id, first);
+}
+
 TEST_F(InterpretationTest, NodesStandWhereTheyWereInserted) {
   std::int64_t front = 0, middle = 0, back = 0;
   project_->edit("insert", [&](Interpretation& it) {

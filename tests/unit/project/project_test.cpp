@@ -222,6 +222,13 @@ TEST_F(Runs, StatisticsComeBackBitByBit) {
   EXPECT_EQ(back.lattice, faults[0].lattice);
   EXPECT_EQ(back.statistics.at("mean")[7], faults[0].statistics.at("mean")[7]);
   EXPECT_TRUE(std::isnan(back.statistics.at("mean")[2]));
+  EXPECT_EQ(project_->run(id).name, fmt::format("run {}", id));
+  project_->rename_run(id, "after the move");
+  EXPECT_EQ(project_->run(id).name, "after the move");
+  EXPECT_EQ(error_of([&] { project_->rename_run(id, "two\nlines"); }).code(), ErrorCode::kInvalid);
+  project_->rename_run(id, "");
+  EXPECT_EQ(project_->run(id).name, fmt::format("run {}", id));
+  EXPECT_EQ(error_of([&] { project_->rename_run(id + 1, "x"); }).code(), ErrorCode::kNotFound);
   EXPECT_TRUE(project_->check().ok());
   project_->delete_run(id);
   EXPECT_THROW(project_->run(id), Error);
