@@ -45,7 +45,10 @@ def error_of(problem, connection):
         return Error("invalid", "the engine does not accept the token",
                      "use the connection file of the engine that runs now")
     if code == grpc.StatusCode.CANCELLED:
-        return Error("cancelled", "the call was cancelled")
+        if words.startswith("Locally cancelled"):
+            return Error("cancelled", "the call was cancelled")
+        # A job that was cancelled is told with a failure: the server leaves its calls.
+        return Error("engine", "the engine ends", "start it again with footwall serve")
     if code == grpc.StatusCode.UNIMPLEMENTED:
         return Error("unsupported", "the engine cannot do this", "use a client and an engine of the same version")
     if code in (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.DEADLINE_EXCEEDED):

@@ -26,6 +26,7 @@ class FakeEngine(engine_pb2_grpc.EngineServicer):
         self.hold.set()
         self.left = threading.Event()  # a client left Extract
         self.bad_tile = False
+        self.ends = False      # Extract is left as by an engine that ends
 
     def check(self, context):
         if dict(context.invocation_metadata()).get("footwall-token") != TOKEN:
@@ -77,6 +78,8 @@ class FakeEngine(engine_pb2_grpc.EngineServicer):
         while not self.hold.wait(0.05):
             if not context.is_active():
                 return
+        if self.ends:
+            context.abort(grpc.StatusCode.CANCELLED, "")
         if request.volume != "cafe":
             self.fail(context, "not_found", "there is no volume " + request.volume, "open one")
         keys = sorted(self.faces)

@@ -92,6 +92,12 @@ class PythonClient(FootwallTest):
             engine.extract("cafe", progress=stop)
         self.assertTrue(self.fake.left.wait(10), "the engine was not told that nobody listens")
 
+    def test_a_call_that_the_engine_leaves_was_not_cancelled_by_the_user(self):
+        engine = self.connected()
+        self.fake.ends = True
+        error = self.assert_error("engine", "the engine ends", engine.extract, "cafe")
+        self.assertIn("footwall serve", error.hint)
+
     def test_live_moves_send_the_touched_faces_and_bring_their_numbers(self):
         engine = self.connected()
         with engine.live("cafe", ["mean"]) as live:
