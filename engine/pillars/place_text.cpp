@@ -19,7 +19,8 @@ std::string index_text(const survey::IndexPoint& p) {
 
 PlaceText place_text_of(const survey::Geometry& survey) {
   return [survey](const survey::IndexPoint& p) {
-    return fmt::format("inline {}, crossline {}, {} {}", tenths(survey.inlines.first + p.i * survey.inlines.step),
+    return fmt::format("inline {}, crossline {}, {} {}",
+                       tenths(survey.inlines.first + p.i * survey.inlines.step),
                        tenths(survey.crosslines.first + p.j * survey.crosslines.step),
                        tenths(survey.z0 + p.k * survey.interval), name_of(survey.vertical_unit));
   };
