@@ -275,7 +275,9 @@ TEST(Server, ItsEndEndsCallsUnderWay) {
   EXPECT_EQ(first->Finish().error_code(), grpc::StatusCode::UNAVAILABLE);
   EXPECT_EQ(running.failure().code(), "engine");
   EXPECT_EQ(second->Finish().error_code(), grpc::StatusCode::UNAVAILABLE);
-  EXPECT_EQ(live->Finish().error_code(), grpc::StatusCode::UNAVAILABLE);
+  // One that had not come that far is left by gRPC itself; clients take it for the engine's end, too.
+  const auto left = live->Finish().error_code();
+  EXPECT_TRUE(left == grpc::StatusCode::UNAVAILABLE || left == grpc::StatusCode::CANCELLED) << left;
   EXPECT_FALSE(std::filesystem::exists(socket));
 }
 
