@@ -34,8 +34,8 @@ std::int64_t pieces_of(double length, double max_edge) {
 
 class Builder {
  public:
-  Builder(Arrangement& out, const Chart& chart, const Options& options)
-      : out_(out), chart_(chart), options_(options) {}
+  Builder(Arrangement& out, const Chart& chart, const Options& options, const JobContext& job)
+      : out_(out), chart_(chart), options_(options), job_(job) {}
 
   void run(std::vector<std::string>& notes) {
     const std::size_t count = out_.courses.size();
@@ -43,7 +43,7 @@ class Builder {
     out_.edge_counts.assign(count, 0);
     // 1. Ties first, so that courses can run through them.
     const std::vector<Tie> ties =
-        ties_of(out_.courses, chart_, options_.tie_tolerance, options_.place_text, out_.mis_ties);
+        ties_of(out_.courses, chart_, options_.tie_tolerance, options_.place_text, out_.mis_ties, job_);
     stops_.resize(count);
     for (const Tie& tie : ties) {
       std::vector<std::int64_t> ids;
@@ -228,6 +228,7 @@ class Builder {
 
   bool try_close(std::int32_t a, std::int32_t p, std::int32_t b, std::int32_t q, int end,
                  std::int32_t& blocker) {
+    job_.check();
     if (p == q || chart_distance(out_.points[p], out_.points[q]) < kTouch) return true;
     const auto obstacle = obstacle_between(p, q);
     if (obstacle) {
@@ -272,6 +273,7 @@ class Builder {
   Arrangement& out_;
   const Chart& chart_;
   const Options& options_;
+  const JobContext& job_;
   std::vector<std::vector<Stop>> stops_;
   std::vector<std::int32_t> first_, last_;  // end vertices of each course
   std::set<std::pair<std::int32_t, std::int32_t>> tied_pairs_;
@@ -282,10 +284,10 @@ class Builder {
 }  // namespace
 
 Arrangement arrange(std::vector<Course> courses, const Chart& chart, const Options& options,
-                    std::vector<std::string>& notes) {
+                    std::vector<std::string>& notes, const JobContext& job) {
   Arrangement out;
   out.courses = std::move(courses);
-  Builder(out, chart, options).run(notes);
+  Builder(out, chart, options, job).run(notes);
   return out;
 }
 

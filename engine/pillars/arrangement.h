@@ -34,6 +34,6 @@ struct Arrangement {
 
 // Throws Error kInvalid naming the pillars that cross beyond the tolerance or lie on one another.
 Arrangement arrange(std::vector<Course> courses, const Chart& chart, const Options& options,
-                    std::vector<std::string>& notes);
+                    std::vector<std::string>& notes, const JobContext& job);
 
 }  // namespace footwall::pillars

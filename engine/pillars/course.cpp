@@ -25,7 +25,7 @@ std::optional<double> foot(const ChartPoint& p, const ChartPoint& a, const Chart
   return t;
 }
 
-void refuse_folds(const Course& c, const PlaceText& place_text) {
+void refuse_folds(const Course& c, const PlaceText& place_text, const JobContext& job) {
   auto folded = [&](std::size_t n) {
     throw Error(ErrorCode::kInvalid,
                 fmt::format("pillar '{}' is folded on itself near {}", c.name, place_text(c.positions[n])),
@@ -33,6 +33,7 @@ void refuse_folds(const Course& c, const PlaceText& place_text) {
   };
   const std::size_t segments = c.points.size() - 1;
   for (std::size_t m = 0; m < segments; ++m) {
+    job.check();
     if (chart_distance(c.points[m], c.points[m + 1]) < kTouch) folded(m);
     if (m + 2 <= segments && (foot(c.points[m + 2], c.points[m], c.points[m + 1]) ||
                               foot(c.points[m], c.points[m + 1], c.points[m + 2])))
@@ -43,7 +44,7 @@ void refuse_folds(const Course& c, const PlaceText& place_text) {
 }
 
 Course course_of(const PillarInput& pillar, const Chart& chart, const PlaceText& place_text,
-                 std::vector<std::string>& notes) {
+                 std::vector<std::string>& notes, const JobContext& job) {
   Course c;
   c.id = pillar.id;
   c.name = pillar.name_for_messages.empty() ? std::to_string(pillar.id) : pillar.name_for_messages;
@@ -84,7 +85,7 @@ Course course_of(const PillarInput& pillar, const Chart& chart, const PlaceText&
     std::reverse(c.node_ids.begin(), c.node_ids.end());
     notes.push_back(fmt::format("pillar '{}' was taken in reverse, to run as its neighbours do", c.name));
   }
-  refuse_folds(c, place_text);
+  refuse_folds(c, place_text, job);
 
   c.s.assign(c.points.size(), 0);
   double weight = 0, place = 0;
@@ -152,7 +153,8 @@ Meetings meetings_of(const ChartPoint& p0, const ChartPoint& p1, const ChartPoin
 }
 
 std::vector<Course> courses_of(std::span<const PillarInput> pillars, const Chart& chart,
-                               std::vector<std::string>& notes, const PlaceText& place_text) {
+                               std::vector<std::string>& notes, const PlaceText& place_text,
+                               const JobContext& job) {
   std::vector<const PillarInput*> by_id;
   for (const PillarInput& p : pillars) by_id.push_back(&p);
   std::stable_sort(by_id.begin(), by_id.end(),
@@ -161,7 +163,7 @@ std::vector<Course> courses_of(std::span<const PillarInput> pillars, const Chart
   for (const PillarInput* p : by_id) {
     if (!courses.empty() && courses.back().id == p->id)
       throw Error(ErrorCode::kInvalid, fmt::format("two pillars have the id {}", p->id));
-    courses.push_back(course_of(*p, chart, place_text, notes));
+    courses.push_back(course_of(*p, chart, place_text, notes, job));
   }
   std::stable_sort(courses.begin(), courses.end(), [](const Course& a, const Course& b) {
     return std::tie(a.crosses, a.place, a.id) < std::tie(b.crosses, b.place, b.id);

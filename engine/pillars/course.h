@@ -5,6 +5,7 @@
 
 #include "engine/pillars/chart.h"
 #include "engine/pillars/place_text.h"
+#include "storage/base/job_context.h"
 
 namespace footwall::pillars {
 
@@ -32,7 +33,8 @@ bool in_reach(const survey::IndexPoint& p);
 // Throws Error kInvalid for nodes that are not in_reach(), pillars without nodes, equal ids, and pillars
 // folded on themselves in the chart.
 std::vector<Course> courses_of(std::span<const PillarInput> pillars, const Chart& chart,
-                               std::vector<std::string>& notes, const PlaceText& place_text = index_text);
+                               std::vector<std::string>& notes, const PlaceText& place_text = index_text,
+                               const JobContext& job = JobContext());
 
 // The points of two segments p0-p1 and q0-q1 that coincide (within kTouch): none, a crossing or a touch, or
 // two ends of an overlap. u and v are their parameters on p and q.

@@ -163,7 +163,7 @@ Interpolation interpolate(std::span<const PillarInput> picked, const Interpolate
   Interpolation result;
   std::vector<std::string>
       about_courses;  // what triangulate says about the picked pillars is not repeated here
-  const std::vector<Course> courses = courses_of(picked, frame, about_courses, options.place_text);
+  const std::vector<Course> courses = courses_of(picked, frame, about_courses, options.place_text, job);
   const Plate plate(courses, options, job, result.notes);
   std::size_t limited_pillars = 0;
   for (std::size_t n = 0; n + 1 < courses.size(); ++n) {
@@ -210,7 +210,7 @@ Interpolation regenerate(std::span<const PillarInput> picked, std::span<const Pa
   const Chart frame = chart_for(picked, chart);
   Interpolation result;
   std::vector<std::string> about_courses;
-  const std::vector<Course> courses = courses_of(picked, frame, about_courses, options.place_text);
+  const std::vector<Course> courses = courses_of(picked, frame, about_courses, options.place_text, job);
   const Plate plate(courses, options, job, result.notes);
   auto course = [&](std::int64_t id) -> const Course& {
     for (const Course& c : courses)

@@ -145,7 +145,7 @@ class Filler {
     for (int i = 0; i <= steps; ++i) {
       for (int j = 0; i + j <= steps; ++j) {
         const int k = steps - i - j;
-        if (i == steps || j == steps || k == steps) continue;
+        if (i == steps || j == steps || k == steps || on_constraint(f, i, j, k)) continue;
         const double a = double(i) / steps, b = double(j) / steps, c = double(k) / steps;
         const auto &p = f->vertex(0), &q = f->vertex(1), &r = f->vertex(2);
         const double x = a * p->point().x() + b * q->point().x() + c * r->point().x();
@@ -153,7 +153,7 @@ class Filler {
         const double flat = a * p->info().height + b * q->info().height + c * r->info().height;
         const double height = reference_->height(x, y);
         const double error = std::abs(height - flat);
-        if (error <= worst || on_constraint(f, i, j, k)) continue;
+        if (error <= worst) continue;
         worst = error;
         best.urgency = error;
         best.strike = x, best.dip = y, best.height = height;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace footwall::pillars {
 namespace {
@@ -9,6 +10,9 @@ namespace {
 struct Vector2 {
   double x = 0, y = 0;
 };
+Vector2 operator+(Vector2 a, Vector2 b) {
+  return {a.x + b.x, a.y + b.y};
+}
 Vector2 operator-(Vector2 a, Vector2 b) {
   return {a.x - b.x, a.y - b.y};
 }
@@ -66,30 +70,74 @@ struct Piece {
   }
 };
 
+// Finds the pieces near a place: they are listed in bins along the strip.
+class PieceBins {
+ public:
+  explicit PieceBins(const std::vector<Piece>& pieces) {
+    const Piece &first = pieces.front(), &last = pieces.back();
+    along_ = (flat(last.a1) - flat(first.a0)) + (flat(last.b1) - flat(first.b0));
+    std::vector<std::pair<double, double>> spans;
+    for (const Piece& p : pieces) {
+      const auto [low, high] = std::minmax({at(flat(p.a0)), at(flat(p.b0)), at(flat(p.b1)), at(flat(p.a1))});
+      spans.emplace_back(low, high);
+      low_ = std::min(low_, low), high_ = std::max(high_, high);
+    }
+    // Slanting pieces lie in many narrow bins: so wide that a piece lies in few.
+    for (count_ = pieces.size(); count_ > 1; count_ /= 2) {
+      std::size_t listed = 0;
+      for (const auto& [low, high] : spans) listed += bin(high) - bin(low) + 1;
+      if (listed <= kListedPerPiece * pieces.size()) break;
+    }
+    bins_.resize(count_);
+    for (std::size_t n = 0; n < spans.size(); ++n)
+      for (std::size_t k = bin(spans[n].first); k <= bin(spans[n].second); ++k)
+        bins_[k].push_back(static_cast<std::int32_t>(n));
+  }
+
+  // Calls each(piece) for those whose bins hold the place, or lie beside its bin.
+  template <class Each>
+  void near(Vector2 q, const Each& each) const {
+    const std::size_t here = bin(at(q));
+    for (std::size_t k = here - (here > 0); k <= std::min(here + 1, count_ - 1); ++k)
+      for (const std::int32_t piece : bins_[k]) each(static_cast<std::size_t>(piece));
+  }
+
+ private:
+  static constexpr std::size_t kListedPerPiece = 8;
+
+  double at(Vector2 q) const { return dot(q, along_); }
+  std::size_t bin(double at) const {
+    const double part = high_ > low_ ? (at - low_) / (high_ - low_) : 0;
+    return std::min(count_ - 1, static_cast<std::size_t>(std::clamp(part, 0.0, 1.0) * double(count_)));
+  }
+
+  Vector2 along_;
+  double low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
+  std::size_t count_ = 1;
+  std::vector<std::vector<std::int32_t>> bins_;
+};
+
 class RuledSurface : public Reference {
  public:
-  explicit RuledSurface(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {}
+  explicit RuledSurface(std::vector<Piece> pieces) : pieces_(std::move(pieces)), bins_(pieces_) {}
 
   double height(double strike, double dip) override {
-    // Neighbouring questions fall into neighbouring pieces: search outwards from the last one.
+    // Neighbouring questions mostly fall into the same piece.
     const Vector2 q{strike, dip};
-    const std::size_t count = pieces_.size();
     double best = pieces_[last_].inside(q);
-    std::size_t place = last_;
-    for (std::size_t step = 1; best < 0 && step < count; ++step) {
-      for (const bool up : {true, false}) {
-        if (up ? last_ + step >= count : step > last_) continue;
-        const std::size_t at = up ? last_ + step : last_ - step;
-        const double in = pieces_[at].inside(q);
-        if (in > best) best = in, place = at;
-      }
+    if (best < 0) {
+      best = -std::numeric_limits<double>::infinity();
+      bins_.near(q, [&](std::size_t piece) {
+        const double in = pieces_[piece].inside(q);
+        if (in > best) best = in, last_ = piece;
+      });
     }
-    last_ = place;
-    return pieces_[place].height(q);
+    return pieces_[last_].height(q);
   }
 
  private:
   std::vector<Piece> pieces_;
+  PieceBins bins_;
   std::size_t last_ = 0;
 };
 

@@ -24,7 +24,7 @@ struct Encounter {
   ChartPoint on_a, on_b;
 };
 
-std::vector<Encounter> encounters_of(const std::vector<Course>& courses) {
+std::vector<Encounter> encounters_of(const std::vector<Course>& courses, const JobContext& job) {
   std::vector<Segment> segments;
   std::vector<std::vector<double>> lengths;
   for (std::size_t c = 0; c < courses.size(); ++c) {
@@ -42,6 +42,7 @@ std::vector<Encounter> encounters_of(const std::vector<Course>& courses) {
   });
   std::vector<Encounter> found;
   for (std::size_t m = 0; m < segments.size(); ++m) {
+    job.check();
     for (std::size_t n = m + 1; n < segments.size() && segments[n].low <= segments[m].high + kTouch; ++n) {
       const bool swap = segments[n].course < segments[m].course;
       const Segment &p = swap ? segments[n] : segments[m], &q = swap ? segments[m] : segments[n];
@@ -76,11 +77,11 @@ std::vector<double> chart_lengths(const Course& course) {
 }
 
 std::vector<Tie> ties_of(const std::vector<Course>& courses, const Chart& chart, double tolerance,
-                         const PlaceText& place_text, std::vector<MisTie>& mis_ties) {
+                         const PlaceText& place_text, std::vector<MisTie>& mis_ties, const JobContext& job) {
   // 1. One encounter for each place; two ends of an overlap are two places with nothing between the courses
   // there.
   std::vector<Encounter> places;
-  for (const Encounter& e : encounters_of(courses)) {
+  for (const Encounter& e : encounters_of(courses, job)) {
     if (!places.empty()) {
       const Encounter& last = places.back();
       if (last.a == e.a && last.b == e.b && std::abs(last.at_a - e.at_a) < kSamePlace &&

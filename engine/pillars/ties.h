@@ -19,6 +19,6 @@ std::vector<double> chart_lengths(const Course& course);
 // Ordered by their courses and places. Adds every pair to mis_ties. Throws Error kInvalid naming the pillars
 // that cross with more than `tolerance` voxels between them or lie on one another.
 std::vector<Tie> ties_of(const std::vector<Course>& courses, const Chart& chart, double tolerance,
-                         const PlaceText& place_text, std::vector<MisTie>& mis_ties);
+                         const PlaceText& place_text, std::vector<MisTie>& mis_ties, const JobContext& job);
 
 }  // namespace footwall::pillars

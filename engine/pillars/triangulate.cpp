@@ -319,8 +319,9 @@ namespace {
 FaultMesh woven(std::span<const PillarInput> pillars, const Options& options, Chart frame, bool turns,
                 const JobContext& job) {
   auto weaver_for = [&](std::vector<std::string>& notes) {
-    return Weaver(arrange(courses_of(pillars, frame, notes, options.place_text), frame, options, notes),
-                  frame, options, job);
+    return Weaver(
+        arrange(courses_of(pillars, frame, notes, options.place_text, job), frame, options, notes, job),
+        frame, options, job);
   };
   std::vector<std::string> notes;
   Weaver weaver = weaver_for(notes);

@@ -61,6 +61,14 @@ TEST(Course, NodesAndChartsThatAreFarAwayAreRefused) {
   EXPECT_NO_THROW(fit_chart(edge));
 }
 
+TEST(Course, CanBeCancelled) {
+  const auto pillars = picked(planar, 4, 5, 20);
+  const JobContext job;
+  job.cancel();
+  std::vector<std::string> notes;
+  EXPECT_THROW(courses_of(pillars, fit_chart(pillars), notes, index_text, job), Error);
+}
+
 TEST(Course, MeetingsAreFoundWithinOneLatticeStep) {
   const ChartPoint a{0, 0, 0}, b{10, 0, 0};
   EXPECT_EQ(meetings_of(a, b, {5, -5, 0}, {5, 5, 0}).count, 1);

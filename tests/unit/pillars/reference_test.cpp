@@ -33,6 +33,26 @@ TEST(Reference, RuledSurfacePassesThroughItsRulings) {
   EXPECT_EQ(ruled_surface(b, a), nullptr) << "the wrong way round";
 }
 
+// Also where it bends back beside itself, and in any order of the questions.
+TEST(Reference, RuledSurfaceOfLongBentCourses) {
+  std::mt19937 random(4);
+  std::vector<ChartPoint> inner, outer;
+  for (int n = 0; n <= 900; ++n) {
+    const double angle = n * 5.2 / 900;
+    for (auto [course, radius] : {std::pair{&inner, 50.0}, std::pair{&outer, 60.0}})
+      course->push_back({radius * std::cos(angle), radius * std::sin(angle), double(random() % 100) / 50});
+  }
+  outer.erase(outer.begin() + 400, outer.begin() + 600);
+  const Course a = course(inner), b = course(outer);
+  const auto ruled = ruled_surface(a, b);
+  ASSERT_NE(ruled, nullptr);
+  for (int n = 0; n < 5000; ++n) {
+    const double s = double(random() % 100001) / 100000, t = double(random() % 1001) / 1000;
+    const ChartPoint p = between(a.at(s), b.at(s), t);
+    EXPECT_NEAR(ruled->height(p.strike, p.dip), p.height, 1e-6);
+  }
+}
+
 TEST(Reference, RuledSurfaceToASingleNodeIsACone) {
   const Course tip = course({{0, 40, 5}}), b = course({{30, 0, 0}, {30, 50, 10}, {25, 90, 0}});
   const auto ruled = ruled_surface(tip, b);
