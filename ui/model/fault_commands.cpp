@@ -114,6 +114,7 @@ std::vector<Id> from_end_to_end(const std::vector<survey::PillarNode>& nodes, co
   }
   std::ranges::stable_sort(along, {}, &std::pair<double, Id>::first);
   std::vector<Id> order;
+  order.reserve(along.size());
   for (const auto& [foot, id] : along) order.push_back(id);
   return order;
 }

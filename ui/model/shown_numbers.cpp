@@ -24,7 +24,7 @@ QString name_of(const project::RunRecord& run) {
 }
 
 QString words_for(const project::RunRecord& run) {
-  const QString name = name_of(run);
+  QString name = name_of(run);
   // As runs are called that got no name.
   if (name.startsWith(QLatin1String("run "))) return name;
   return QCoreApplication::translate("Runs", "run %1").arg(name);
