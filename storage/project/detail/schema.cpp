@@ -1,9 +1,11 @@
 #include "storage/project/detail/schema.h"
 
 #include <fmt/format.h>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <optional>
 
 #include "storage/base/error.h"
 #include "storage/base/partial_file.h"
@@ -187,6 +189,36 @@ class Snapshot {
   bool begun_ = false;
 };
 
+using Header = std::array<unsigned char, 100>;  // of an SQLite file
+
+struct Lack {
+  std::uint64_t size = 0;
+  std::uint64_t expected = 0;
+  friend bool operator==(const Lack&, const Lack&) = default;
+};
+
+// How much shorter the file is than its header says. A log or journal left by a crash still holds what the
+// file lacks; SQLite puts it right. Without one, the page count stands for the file where both change
+// counters agree.
+std::optional<Lack> lack_of(const std::filesystem::path& path) {
+  std::error_code trouble;
+  for (const char* suffix : {"-wal", "-journal"}) {
+    const auto left = std::filesystem::file_size(path.string() + suffix, trouble);
+    if (!trouble && left > 0) return std::nullopt;
+  }
+  Header head{};
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(reinterpret_cast<char*>(head.data()), head.size())) return Lack{};
+  const auto size = std::filesystem::file_size(path, trouble);
+  const std::uint32_t raw_page = (std::uint32_t{head[16]} << 8) | head[17];
+  const std::uint64_t page = raw_page == 1 ? 65536 : raw_page;
+  const bool counted = big_endian(&head[24]) == big_endian(&head[92]);
+  const std::uint64_t expected = page * big_endian(&head[28]);
+  if (!trouble && size % std::max<std::uint64_t>(page, 512) == 0 && (!counted || size >= expected))
+    return std::nullopt;
+  return Lack{trouble ? 0 : size, expected};
+}
+
 }  // namespace
 
 std::span<const char* const> tables_under_undo() {
@@ -202,33 +234,24 @@ void check_header(const std::filesystem::path& path, int newest_version) {
   const Error foreign(ErrorCode::kFormat, fmt::format("{} is not a Footwall project", name),
                       "a project is made by 'footwall new'");
   if (!std::filesystem::is_regular_file(path, trouble)) throw foreign;
-  const auto size = std::filesystem::file_size(path, trouble);
   std::ifstream file(path, std::ios::binary);
   if (!file) throw io_error("open", name, errno);
-  unsigned char head[100];
-  if (!file.read(reinterpret_cast<char*>(head), sizeof head)) throw foreign;
-  if (std::memcmp(head, "SQLite format 3", 16) != 0) throw foreign;
-  if (big_endian(head + 68) != static_cast<std::uint32_t>(kApplicationId)) {
+  Header head{};
+  if (!file.read(reinterpret_cast<char*>(head.data()), head.size())) throw foreign;
+  if (std::memcmp(head.data(), "SQLite format 3", 16) != 0) throw foreign;
+  if (big_endian(&head[68]) != static_cast<std::uint32_t>(kApplicationId)) {
     throw Error(ErrorCode::kFormat, fmt::format("{} is a database of another program", name),
                 "a project is made by 'footwall new'");
   }
-  const auto version = static_cast<std::int32_t>(big_endian(head + 60));
+  const auto version = static_cast<std::int32_t>(big_endian(&head[60]));
   if (version > newest_version) throw newer(name, version, newest_version);
-  const std::uint32_t raw_page = (std::uint32_t{head[16]} << 8) | head[17];
-  const std::uint64_t page = raw_page == 1 ? 65536 : raw_page;
-  // A log or journal left by a crash still holds what the file lacks; SQLite puts it right. Without one, the
-  // page count stands for the file where both change counters agree.
-  for (const char* suffix : {"-wal", "-journal"}) {
-    const auto left = std::filesystem::file_size(name + suffix, trouble);
-    if (!trouble && left > 0) return;
-  }
-  trouble.clear();
-  const bool counted = big_endian(head + 24) == big_endian(head + 92);
-  const std::uint64_t expected = page * big_endian(head + 28);
-  if (trouble || size % std::max<std::uint64_t>(page, 512) != 0 || (counted && size < expected)) {
-    throw Error(ErrorCode::kCorrupt,
-                fmt::format("{} is cut short: it has {} bytes, expected {}", name, size, expected),
-                "restore it from a copy");
+  // A process that writes meanwhile may have come between the looks at the size and at the header.
+  const auto lacking = lack_of(path);
+  if (lacking && lack_of(path) == lacking) {
+    throw Error(
+        ErrorCode::kCorrupt,
+        fmt::format("{} is cut short: it has {} bytes, expected {}", name, lacking->size, lacking->expected),
+        "restore it from a copy");
   }
 }
 

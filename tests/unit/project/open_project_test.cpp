@@ -307,6 +307,30 @@ TEST_F(OpenProject, WhoMayNotWriteReadsWhatIsBeingWritten) {
   EXPECT_EQ(OtherProcess(faults_seen).ended(), 1) << "closed, but still marked as written through a log";
 }
 
+// A file that grows between two looks at it is not cut short.
+TEST_F(OpenProject, ReadersComeAtAnyMomentOfAWriterThatComesAndGoes) {
+  Project::create(path_, {}).close();
+  OtherProcess writer([this](const OtherProcess&) {
+    for (int round = 0; round < 40; ++round) {
+      auto project = Project::open(path_, OpenMode::kWrite);
+      project.edit("grow", [round](Interpretation& it) {
+        const auto fault = it.add_fault(fmt::format("F{}", round));
+        it.set_fault_property(fault, "note", std::string(60000, 'n'));
+      });
+    }
+    return 0;
+  });
+  int looks = 0;
+  std::size_t seen = 0;
+  for (; seen < 40 && looks < 100000; ++looks) {
+    const auto now = Project::open(path_, OpenMode::kRead).faults().size();
+    ASSERT_GE(now, seen);
+    seen = now;
+  }
+  EXPECT_EQ(writer.ended(), 0);
+  EXPECT_EQ(seen, 40U);
+}
+
 TEST_F(OpenProject, ACopyIsOneMomentOfAProjectThatIsBeingWritten) {
   auto writer = Project::create(path_, small_survey());
   writer.edit("add", [](Interpretation& it) { it.add_fault("F"); });
