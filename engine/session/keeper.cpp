@@ -16,6 +16,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <thread>
 
 #include "storage/base/error.h"
@@ -35,6 +36,8 @@ constexpr timespec kPause{0, 20'000'000};
 // Until the lock of an owner that was killed is let go.
 constexpr int kLockLooks = 50;
 constexpr std::chrono::milliseconds kLockLook{10};
+constexpr int kOwnerLooks = 200;
+constexpr std::uint64_t kExiting = 4;  // PF_EXITING among a thread's flags in /proc/N/stat
 
 struct Orders {
   pid_t owner = 0;
@@ -83,6 +86,27 @@ void remove_unless_locked(const std::filesystem::path& lock) {
   // Whoever locks it now looks whether it is still there.
   if (locked && ::fstat(file, &facts) == 0 && facts.st_nlink > 0) ::unlink(lock.c_str());
   ::close(file);
+}
+
+// Whether a process is on its way out, or killed and about to be; false where it is gone.
+bool is_ending(pid_t process) {
+  const std::string place = "/proc/" + std::to_string(process);
+  std::string stat;
+  std::getline(std::ifstream(place + "/stat"), stat);
+  const std::size_t name_end = stat.rfind(')');
+  if (name_end == std::string::npos) return false;
+  std::istringstream rest(stat.substr(name_end + 1));
+  char state = 0;
+  std::int64_t parent = 0, group = 0, session = 0, terminal = 0, foreground = 0;
+  std::uint64_t flags = 0;
+  rest >> state >> parent >> group >> session >> terminal >> foreground >> flags;
+  if (state == 'Z' || state == 'X' || (flags & kExiting) != 0) return true;
+  std::ifstream status(place + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (!line.starts_with("SigPnd:") && !line.starts_with("ShdPnd:")) continue;
+    if ((std::strtoull(line.c_str() + 7, nullptr, 16) >> (SIGKILL - 1) & 1) != 0) return true;
+  }
+  return false;
 }
 
 sigset_t watched_signals() {
@@ -134,7 +158,7 @@ class Keeper {
       const bool ending = status_ || kill_at_;
       heed(ending ? sigtimedwait(&set_, nullptr, &kPause) : sigwaitinfo(&set_, nullptr));
     }
-    look_for_owner();
+    await_ending_owner();
     if (owner_is_gone_) {
       std::error_code ignored;
       for (const auto& folder : orders_.belongings.folders) std::filesystem::remove_all(folder, ignored);
@@ -166,6 +190,16 @@ class Keeper {
     if (!theirs.secret_file.empty() && has(theirs.secret_file, secret != nullptr ? secret : ""))
       ::unlink(theirs.secret_file.c_str());
     if (!theirs.lock.empty()) remove_unless_locked(theirs.lock);
+  }
+
+  // One that was killed just now is this process's parent until its last thread is gone.
+  void await_ending_owner() {
+    for (int look = 0; look < kOwnerLooks && !owner_is_gone_; ++look) {
+      const bool ends = is_ending(orders_.owner);
+      look_for_owner();
+      if (!ends) return;
+      std::this_thread::sleep_for(kLockLook);
+    }
   }
 
   void heed(int number) {

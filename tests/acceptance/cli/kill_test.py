@@ -181,11 +181,7 @@ class Kill(ServedTest):
             time.sleep(random.uniform(0, 0.7))  # the moment is any
             family = [serving.pid, *below(serving.pid)]
             victims = [each for each in (self.victim(kind, serving, status) for kind in kinds) if each is not None]
-            for victim in victims:
-                try:
-                    os.kill(victim, signal.SIGKILL)
-                except ProcessLookupError:
-                    pass  # it went with another one
+            self.kill_at_once(victims, self.victim("keeper", serving, status) if "serve" in kinds else None)
             self.assert_follows(kinds, serving, family)
         finally:
             self.over.set()
@@ -200,6 +196,16 @@ class Kill(ServedTest):
         self.assert_next_call_works()
         self.assert_no_shared_memory(served=True)
 
+    def kill_at_once(self, victims, keeper):
+        """The keeper does not see one without the others: it would end by itself, and leave the rest to serve."""
+        for each, number in [(keeper, signal.SIGSTOP), *((victim, signal.SIGKILL) for victim in victims),
+                             (keeper, signal.SIGCONT)]:
+            try:
+                if each is not None:
+                    os.kill(each, number)
+            except ProcessLookupError:
+                pass  # it went with another one
+
     def assert_follows(self, kinds, serving, family):
         """Those that cannot go on without it end, too, and leave nothing."""
         if not set(kinds) & set(ENGINE):
@@ -209,7 +215,8 @@ class Kill(ServedTest):
         for each in family:
             if each != serving.pid:
                 self.assertTrue(is_gone(each), f"{name_of(each)} outlives {kinds}")
-        # Where both that could have cleaned are killed, the next start does.
+        # Where both that could have cleaned are killed, the next start does; so it does where serve is killed while
+        # it starts an engine again, between two keepers.
         if "serve" in kinds and "keeper" not in kinds:
             self.assertEqual([str(path) for path in self.runtime.rglob("*") if not path.is_dir()], [])
             self.assertFalse((self.folder / "e.json").exists())
