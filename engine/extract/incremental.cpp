@@ -2,6 +2,7 @@
 
 #include <omp.h>
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <unordered_map>
 

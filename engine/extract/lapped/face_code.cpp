@@ -2,6 +2,8 @@
 // (kPlain), one value (kConstant), or the step, the offset and the coefficients (kLine, kRaster).
 #include "engine/extract/lapped/face_code.h"
 
+#include <fmt/format.h>
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>

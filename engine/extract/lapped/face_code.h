@@ -3,6 +3,7 @@
 // every rank count, thread count and instruction set. docs/lapped-transform.md describes them.
 #pragma once
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
